@@ -1,0 +1,179 @@
+#include "bench/costs.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "macrotask/barrier.h"
+#include "macrotask/event.h"
+#include "macrotask/lock.h"
+#include "macrotask/placement.h"
+#include "macrotask/task.h"
+
+namespace bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Seconds for one of `calls` calls in a loop.
+double TimeLoop(int calls, const std::function<void(int)>& loop) {
+  const Clock::time_point start = Clock::now();
+  loop(calls);
+  return SecondsSince(start) / calls;
+}
+
+// All chains at one point, in the middle of the lift.
+class OnePoint {
+ public:
+  OnePoint(const LiftCase& lift, dynamics::Lanes lanes)
+      : system_(lift.lift().model, lift.torques(), lanes),
+        exchange_(system_.MakeExchange(1)),
+        evaluator_(
+            system_.MakeEvaluator(0, system_.num_chains(), 0, 1, &exchange_)),
+        state_(lift.InitialState()),
+        rate_(state_.size()) {
+    const int n = lift.num_steps() / 2;
+    lift.Planned()(n, state_.data(), rate_.data());
+    time_ = n * lift.step();
+    std::size_t offset = 0;
+    for (int k = 0; k < system_.num_chains(); ++k) {
+      chain_states_.push_back(state_.data() + offset);
+      chain_rates_.push_back(rate_.data() + offset);
+      offset += static_cast<std::size_t>(system_.chain_size(k));
+    }
+    common_state_ = state_.data() + offset;
+    common_rate_ = rate_.data() + offset;
+  }
+
+  void Ocd() { evaluator_.Ocd(0, {&time_, 1}, chain_states_); }
+  void Rma() {
+    evaluator_.Rma(0, {&common_state_, 1}, {&common_rate_, 1}, a_r_,
+                   {&failure_, 1});
+  }
+  void Ccd() { evaluator_.Ccd(a_r_, chain_rates_); }
+
+ private:
+  dynamics::ClosedChainSystem system_;
+  dynamics::TipExchange exchange_;
+  dynamics::Evaluator evaluator_;
+  std::vector<double> state_, rate_;
+  std::vector<const double*> chain_states_;
+  std::vector<double*> chain_rates_;
+  const double* common_state_;
+  double* common_rate_;
+  double a_r_[6];
+  double time_;
+  int failure_;
+};
+
+struct Measured {
+  Cost cost;
+  int calls;
+  std::function<void(int)> loop;
+};
+
+// Runs all loops in turn, again and again; the first time is dropped.
+std::vector<Cost> Interleave(std::vector<Measured> measured, int repetitions) {
+  for (int r = 0; r <= repetitions; ++r) {
+    for (Measured& m : measured) {
+      const double seconds = TimeLoop(m.calls, m.loop);
+      if (r > 0) m.cost.seconds.push_back(seconds);
+    }
+  }
+  std::vector<Cost> costs;
+  for (Measured& m : measured) costs.push_back(std::move(m.cost));
+  return costs;
+}
+
+template <typename Function>
+std::function<void(int)> Repeat(Function function) {
+  return [function](int calls) {
+    for (int call = 0; call < calls; ++call) function();
+  };
+}
+
+}  // namespace
+
+std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions) {
+  std::vector<Measured> measured;
+  for (const auto lanes : {dynamics::Lanes::kFour, dynamics::Lanes::kOne}) {
+    const auto point = std::make_shared<OnePoint>(lift, lanes);
+    const std::string with = std::to_string(static_cast<int>(lanes)) + " lanes";
+    constexpr int kCalls = 500;
+    measured.push_back(
+        {{"OCD", with, {}}, kCalls, Repeat([point] { point->Ocd(); })});
+    measured.push_back(
+        {{"RMA", with, {}}, kCalls, Repeat([point] { point->Rma(); })});
+    measured.push_back(
+        {{"CCD", with, {}}, kCalls, Repeat([point] { point->Ccd(); })});
+    measured.push_back({{"evaluation", with, {}}, kCalls, Repeat([point] {
+                          point->Ocd();
+                          point->Rma();
+                          point->Ccd();
+                        })});
+  }
+  return Interleave(std::move(measured), repetitions);
+}
+
+std::vector<Cost> MeasureSynchronization(macrotask::WaitPolicy wait,
+                                         int repetitions) {
+  using macrotask::RunTasks;
+  std::vector<Measured> measured;
+  const std::string policy(Name(wait.kind));
+  const auto lock = std::make_shared<macrotask::Lock>(wait);
+  measured.push_back(
+      {{"LOCKON + LOCKOFF", "1 task, " + policy, {}}, 10000, Repeat([lock] {
+         lock->On();
+         lock->Off();
+       })});
+  measured.push_back(
+      {{"TSKSTART + TSKWAIT", "1 task, " + policy, {}}, 100, Repeat([wait] {
+         macrotask::Task task([] {}, {.wait = wait});
+         task.Wait();
+       })});
+  if (macrotask::NumProcessors() >= 2) {
+    const int calls = wait.kind == macrotask::WaitKind::kBlock ? 100 : 10000;
+    measured.push_back(
+        {{"BARSYNC", "2 tasks, " + policy, {}}, calls, [wait](int n) {
+           macrotask::Barrier barrier(2, wait);
+           RunTasks(
+               2,
+               [&](int) {
+                 for (int call = 0; call < n; ++call) barrier.Sync();
+               },
+               wait);
+         }});
+    // There and back again, on fresh events, is two hand-overs.
+    measured.push_back(
+        {{"EVPOST to EVWAIT", "2 tasks, " + policy, {}}, calls, [wait](int n) {
+           macrotask::Event ping(wait), pong(wait);
+           const auto hand_over = [n](macrotask::Event& from,
+                                      macrotask::Event& to, bool first) {
+             for (int call = 0; call < n / 2; ++call) {
+               if (first) to.Post();
+               from.Wait();
+               from.Clear();
+               if (!first) to.Post();
+             }
+           };
+           RunTasks(
+               2,
+               [&](int task) {
+                 if (task == 0) {
+                   hand_over(pong, ping, true);
+                 } else {
+                   hand_over(ping, pong, false);
+                 }
+               },
+               wait);
+         }});
+  }
+  return Interleave(std::move(measured), repetitions);
+}
+
+}  // namespace bench

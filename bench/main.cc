@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+
+#include "bench/build_info.h"
+#include "bench/output_file.h"
+#include "bench/report.h"
+#include "bench/reproduce.h"
+#include "bench/simulate.h"
+
+namespace bench {
+namespace {
+
+constexpr int kBadInput = 2;
+
+// Options that several subcommands have.
+struct WaitOptions {
+  macrotask::WaitKind kind = macrotask::WaitKind::kHold;
+  int hold_time_us = 50;
+
+  macrotask::WaitPolicy Policy() const {
+    return {.kind = kind, .hold_time = std::chrono::microseconds(hold_time_us)};
+  }
+};
+
+// A name on the command line for each value of an enumeration.
+template <typename Value>
+CLI::Option* AddChoice(CLI::App* app, const std::string& name, Value* value,
+                       const std::map<std::string, Value>& choices,
+                       const std::string& help) {
+  return app->add_option(name, *value, help)
+      ->transform(
+          CLI::CheckedTransformer(choices, CLI::ignore_case).description(""))
+      ->option_text([&] {
+        std::string text;
+        for (const auto& choice : choices) {
+          text += (text.empty() ? "" : "|") + choice.first;
+        }
+        return text;
+      }());
+}
+
+void AddWaitOptions(CLI::App* app, WaitOptions* wait) {
+  AddChoice<macrotask::WaitKind>(
+      app, "--wait", &wait->kind,
+      {{"block", macrotask::WaitKind::kBlock},
+       {"spin", macrotask::WaitKind::kSpin},
+       {"hold", macrotask::WaitKind::kHold}},
+      "How a task waits: block sleeps (pthread barriers, condition variables), "
+      "spin asks again and again, hold (the default) spins for the hold time, "
+      "then sleeps");
+  app->add_option("--hold-time", wait->hold_time_us,
+                  "Hold time in microseconds")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+}
+
+struct ReproduceCommand {
+  WaitOptions wait;
+  int repetitions = 200;
+  std::string csv, json;
+
+  void Add(CLI::App* app);
+  void Run() const;
+};
+
+void ReproduceCommand::Add(CLI::App* app) {
+  AddWaitOptions(app, &wait);
+  app->add_option("--repetitions", repetitions,
+                  "How often everything is timed, in turn")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app->add_option("--csv", csv,
+                  "Write Table 2 to this file as CSV (- for the standard "
+                  "output, instead of the tables)");
+  app->add_option("--json", json,
+                  "Write everything, with every raw figure, to this file as "
+                  "JSON (- likewise)");
+}
+
+void ReproduceCommand::Run() const {
+  for (const std::string& path : {csv, json}) {
+    if (!path.empty()) CheckOutput(path);
+  }
+  const Reproduction result =
+      Reproduce({.repetitions = repetitions, .wait = wait.Policy()});
+  if (!csv.empty()) WriteOutput(csv, ReportCsv(result));
+  if (!json.empty()) WriteOutput(json, ReportJson(result));
+  if (csv != "-" && json != "-") WriteOutput("-", ReportText(result));
+}
+
+struct SimulateCommand {
+  SimulateOptions options;
+  WaitOptions wait;
+
+  void Add(CLI::App* app);
+  void Run();
+};
+
+void SimulateCommand::Add(CLI::App* app) {
+  using integrators::Figure;
+  app->add_option("--method", options.method,
+                  "B1PC5, B2PC5, B4PC5, or another B<points>PC<order>")
+      ->capture_default_str();
+  app->add_option("--step", options.step,
+                  "Time between grid points in seconds; must divide the one "
+                  "second of the lift")
+      ->capture_default_str();
+  AddChoice<Figure>(app, "--figure", &options.figure,
+                    {{"serial", Figure::kSerial},
+                     {"figure2", Figure::kFigure2},
+                     {"figure3", Figure::kFigure3},
+                     {"figure7", Figure::kFigure7},
+                     {"figure8", Figure::kFigure8}},
+                    "Task structure: one of the paper's figures, or the serial "
+                    "program; figure8 (the default) can do all the others do");
+  app->add_option("--chain-tasks", options.partition.chain_tasks,
+                  "Tasks along the chains, m^")
+      ->capture_default_str();
+  app->add_option("--integration-tasks", options.partition.integration_tasks,
+                  "Tasks along the points of a block, p^")
+      ->capture_default_str();
+  AddWaitOptions(app, &wait);
+  AddChoice<dynamics::Lanes>(
+      app, "--lanes", &options.lanes,
+      {{"1", dynamics::Lanes::kOne}, {"4", dynamics::Lanes::kFour}},
+      "Chains and points that one task computes at "
+      "once in a vector register (4 is the default)");
+  AddChoice<StartKind>(
+      app, "--start", &options.start,
+      {{"dopri5", StartKind::kDopri5}, {"plan", StartKind::kPlan}},
+      "Where the first derivative values come from: computed "
+      "(the default) or known from the plan");
+  app->add_option("--chains", options.num_chains,
+                  "PUMA 560 arms around the load")
+      ->capture_default_str();
+  app->add_flag("--rotor-inertia", options.rotor_inertia,
+                "Add the motors' inertia G^2 Jm to the arms");
+  app->add_option("--output", options.output,
+                  "Write the trajectory to this file as CSV: load, joints, "
+                  "torques and tip forces at every grid point (- for the "
+                  "standard output, instead of the report)");
+}
+
+void SimulateCommand::Run() {
+  options.wait = wait.Policy();
+  const std::string report = Simulate(options);
+  if (!report.empty()) WriteOutput("-", report);
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app{
+      "Parallel dynamic simulation of robot arms that carry a load together,\n"
+      "as McMillan, Sadayappan and Orin did on a CRAY Y-MP in 1993.\n"
+      "\n"
+      "  macrotask reproduce     their experiment, Tables 1 and 2\n"
+      "  macrotask simulate      one run of it, as you like\n",
+      "macrotask"};
+  app.set_version_flag("--version",
+                       fmt::format("macrotask {} ({})", kVersion, kGitHash));
+  app.require_subcommand(1);
+
+  ReproduceCommand reproduce;
+  CLI::App* reproduce_app = app.add_subcommand(
+      "reproduce",
+      "Run the paper's experiment on this machine: the steps each method needs "
+      "for an\nerror of 1e-6 m, then Tables 1 and 2 with the paper's figures "
+      "beside ours");
+  reproduce.Add(reproduce_app);
+
+  SimulateCommand simulate;
+  CLI::App* simulate_app = app.add_subcommand(
+      "simulate",
+      "Simulate the lift once: PUMA 560 arms raise a 4 kg load by 0.8 m in one "
+      "second,\ndriven by a torque profile computed beforehand");
+  simulate.Add(simulate_app);
+
+  try {
+    app.parse(argc, argv);
+    if (reproduce_app->parsed()) reproduce.Run();
+    if (simulate_app->parsed()) simulate.Run();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    fmt::print(stderr, "macrotask: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "macrotask: {}\n", error.what());
+    return kBadInput;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) { return bench::Main(argc, argv); }

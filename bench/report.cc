@@ -1,0 +1,331 @@
+#include "bench/report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/text_table.h"
+
+namespace bench {
+namespace {
+
+int LaneCount(const LaneTables& tables) {
+  return static_cast<int>(tables.lanes);
+}
+
+double MedianSeconds(const TableRow& row) { return Median(row.seconds); }
+
+// S_p of one row, from repetitions that were run next to each other.
+struct Speedup {
+  double value;
+  Interval interval;
+};
+Speedup SpeedupOf(const TableRow& serial, const TableRow& row) {
+  return {MedianSeconds(serial) / MedianSeconds(row),
+          MedianInterval(Ratios(serial.seconds, row.seconds))};
+}
+
+// S_a from the numbers of steps, a pure number, and from the clock.
+double StepSpeedup(const Reproduction& reproduction, int block_size) {
+  return SweepOf(reproduction, 1).steps_at_target /
+         SweepOf(reproduction, block_size).steps_at_target;
+}
+double ClockSpeedup(const LaneTables& tables, int block_size) {
+  return MedianSeconds(SerialRow(tables, 1)) /
+         MedianSeconds(SerialRow(tables, block_size));
+}
+
+std::string Micro(double seconds) {
+  return fmt::format("{:.1f}", seconds * 1e6);
+}
+
+std::string MicroWithInterval(const std::vector<double>& seconds) {
+  const Interval interval = MedianInterval(seconds);
+  return fmt::format("{:.1f} [{:.1f}, {:.1f}]", Median(seconds) * 1e6,
+                     interval.low * 1e6, interval.high * 1e6);
+}
+
+std::string NanoWithInterval(const std::vector<double>& seconds) {
+  const Interval interval = MedianInterval(seconds);
+  return fmt::format("{:.0f} [{:.0f}, {:.0f}]", Median(seconds) * 1e9,
+                     interval.low * 1e9, interval.high * 1e9);
+}
+
+std::string PaperCell(const TableRow& row, double PaperRow::*figure) {
+  return row.paper == nullptr ? "" : fmt::format("{:.4g}", row.paper->*figure);
+}
+
+std::string MachineText(const Reproduction& r) {
+  return fmt::format(
+      "macrotask {} ({})\n"
+      "processor:  {}, {} usable\n"
+      "kernel:     {}\n"
+      "compiler:   {}, {}\n"
+      "placement:  {}\n"
+      "waiting:    {}, hold time {} us\n",
+      r.machine.version, r.machine.git_hash, r.machine.cpu,
+      r.machine.processors, r.machine.kernel, r.machine.compiler,
+      r.machine.flags, r.placement, Name(r.wait.kind),
+      std::chrono::duration_cast<std::chrono::microseconds>(r.wait.hold_time)
+          .count());
+}
+
+std::string SweepText(const Reproduction& r) {
+  TextTable table(
+      {"method", "steps for 1e-6 m", "observed order", "S_a", "S_a (paper)"});
+  for (const MethodSweep& sweep : r.sweeps) {
+    const int b = sweep.method.block_size;
+    double paper = 1;
+    for (const PaperRow& row : kPaperTable2) {
+      if (row.block_size == b) paper = row.S_a;
+    }
+    table.AddRow({sweep.method.name(),
+                  fmt::format("{:.1f}", sweep.steps_at_target),
+                  fmt::format("{:.1f}", -sweep.fit.slope),
+                  fmt::format("{:.3f}", StepSpeedup(r, b)),
+                  fmt::format("{:.3g}", paper)});
+  }
+  return "Accuracy: error of the final position over the number of steps, "
+         "log-log regression,\nstarted from the plan. S_a from the numbers of "
+         "steps: no clock.\n\n" +
+         table.Markdown();
+}
+
+std::vector<std::string> PartitionCells(const TableRow& row) {
+  return {fmt::format("{}", row.processors()),
+          fmt::format("{}", row.partition.chain_tasks),
+          fmt::format("{}", row.partition.integration_tasks)};
+}
+
+std::string NeedsText(const TableRow& row) {
+  return fmt::format("needs {} processors", row.processors());
+}
+
+std::string SpeedupText(const LaneTables& tables, const TableRow& row) {
+  const Speedup s = SpeedupOf(SerialRow(tables, row.block_size), row);
+  if (row.processors() == 1) return "1.00";
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", s.value, s.interval.low,
+                     s.interval.high);
+}
+
+std::string BitsText(const TableRow& row) {
+  return row.same_bits ? "same" : "DIFFERENT";
+}
+
+std::string Table1Text(const LaneTables& tables) {
+  TextTable table({"processors", "m^", "p^", "T (us)", "S_p", "states",
+                   "paper T (s)", "paper S_p"});
+  for (const TableRow& row : tables.rows) {
+    if (row.block_size != 4) continue;
+    std::vector<std::string> cells = PartitionCells(row);
+    cells.push_back(row.measured() ? MicroWithInterval(row.seconds)
+                                   : NeedsText(row));
+    cells.push_back(row.measured() ? SpeedupText(tables, row) : "");
+    cells.push_back(BitsText(row));
+    cells.push_back(PaperCell(row, &PaperRow::T));
+    cells.push_back(PaperCell(row, &PaperRow::S_p));
+    table.AddRow(std::move(cells));
+  }
+  return fmt::format("Table 1: speedup results for B4PC5, {} lanes.\n\n{}",
+                     LaneCount(tables), table.Markdown());
+}
+
+std::string Table2Text(const Reproduction& r, const LaneTables& tables) {
+  TextTable table({"processors", "m^", "p^", "block", "T (us)", "S_p",
+                   "S_a steps", "S_a clock", "S_T", "states", "paper T (s)",
+                   "S_p", "S_a", "S_T"});
+  for (const TableRow& row : tables.rows) {
+    std::vector<std::string> cells = PartitionCells(row);
+    cells.push_back(fmt::format("{}", row.block_size));
+    if (row.measured()) {
+      const double S_a = ClockSpeedup(tables, row.block_size);
+      const double S_p =
+          SpeedupOf(SerialRow(tables, row.block_size), row).value;
+      cells.push_back(Micro(MedianSeconds(row)));
+      cells.push_back(fmt::format("{:.2f}", S_p));
+      cells.push_back(fmt::format("{:.3f}", StepSpeedup(r, row.block_size)));
+      cells.push_back(fmt::format("{:.3f}", S_a));
+      cells.push_back(fmt::format("{:.2f}", S_p * S_a));
+    } else {
+      cells.insert(cells.end(), {NeedsText(row), "", "", "", ""});
+    }
+    cells.push_back(BitsText(row));
+    cells.push_back(PaperCell(row, &PaperRow::T));
+    cells.push_back(PaperCell(row, &PaperRow::S_p));
+    cells.push_back(PaperCell(row, &PaperRow::S_a));
+    cells.push_back(PaperCell(row, &PaperRow::S_T));
+    table.AddRow(std::move(cells));
+  }
+  return fmt::format(
+      "Table 2: accuracy performance for various configurations, {} "
+      "lanes.\n\n{}",
+      LaneCount(tables), table.Markdown());
+}
+
+std::string LiftText(const LaneTables& tables) {
+  const LiftRun& lift = tables.lift;
+  return fmt::format(
+      "The one-second lift, B1PC5, one processor, {} lanes, DOPRI5 start "
+      "included: {} us,\n{} steps, error {:.2g} m, {:.0f} times faster than "
+      "real time.\n",
+      LaneCount(tables), MicroWithInterval(lift.seconds), lift.steps,
+      lift.error, 1 / Median(lift.seconds));
+}
+
+std::string CostText(const Reproduction& r) {
+  TextTable table({"what", "with", "ns [95 % interval]"});
+  for (const Cost& cost : r.costs) {
+    table.AddRow({cost.name, cost.with, NanoWithInterval(cost.seconds)});
+  }
+  return "What a call costs (all chains at one point; synchronization without "
+         "work between).\n\n" +
+         table.Markdown();
+}
+
+nlohmann::json RowJson(const Reproduction& r, const LaneTables& tables,
+                       const TableRow& row) {
+  nlohmann::json json = {{"lanes", LaneCount(tables)},
+                         {"processors", row.processors()},
+                         {"chain_tasks", row.partition.chain_tasks},
+                         {"integration_tasks", row.partition.integration_tasks},
+                         {"block", row.block_size},
+                         {"same_bits_as_serial", row.same_bits},
+                         {"seconds", row.seconds},
+                         {"S_a_steps", StepSpeedup(r, row.block_size)}};
+  if (row.measured()) {
+    const Speedup S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
+    const double S_a = ClockSpeedup(tables, row.block_size);
+    json["T"] = MedianSeconds(row);
+    json["S_p"] = S_p.value;
+    json["S_p_interval"] = {S_p.interval.low, S_p.interval.high};
+    json["S_a_clock"] = S_a;
+    json["S_T"] = S_p.value * S_a;
+  } else {
+    json["needs_processors"] = row.processors();
+  }
+  if (row.paper != nullptr) {
+    json["paper"] = {{"T", row.paper->T},
+                     {"S_p", row.paper->S_p},
+                     {"S_a", row.paper->S_a},
+                     {"S_T", row.paper->S_T}};
+  }
+  return json;
+}
+
+nlohmann::json SweepJson(const MethodSweep& sweep) {
+  nlohmann::json points = nlohmann::json::array();
+  for (const SweepPoint& point : sweep.points) {
+    points.push_back({{"steps", point.steps}, {"error", point.error}});
+  }
+  return {{"method", sweep.method.name()},
+          {"steps_at_target", sweep.steps_at_target},
+          {"slope", sweep.fit.slope},
+          {"intercept", sweep.fit.intercept},
+          {"points", std::move(points)}};
+}
+
+}  // namespace
+
+std::string ReportText(const Reproduction& r) {
+  std::string text = MachineText(r) + "\n" + SweepText(r);
+  for (const LaneTables& tables : r.lanes) {
+    text += "\n" + Table1Text(tables) + "\n" + Table2Text(r, tables);
+  }
+  text +=
+      "\nT: median over the repetitions (interleaved), at the steps for 1e-6 "
+      "m; "
+      "brackets: 95 %\nintervals. S_p against the same method serial. states: "
+      "bit for bit those of the serial\nprogram, or not. Paper: CRAY "
+      "Y-MP8/864.\n\n";
+  for (const LaneTables& tables : r.lanes) text += LiftText(tables);
+  return text + "\n" + CostText(r);
+}
+
+std::string ReportCsv(const Reproduction& r) {
+  TextTable table({"lanes",
+                   "processors",
+                   "chain_tasks",
+                   "integration_tasks",
+                   "block",
+                   "T_s",
+                   "T_low_s",
+                   "T_high_s",
+                   "S_p",
+                   "S_p_low",
+                   "S_p_high",
+                   "S_a_steps",
+                   "S_a_clock",
+                   "S_T",
+                   "same_bits_as_serial",
+                   "needs_processors",
+                   "paper_T_s",
+                   "paper_S_p",
+                   "paper_S_a",
+                   "paper_S_T"});
+  for (const LaneTables& tables : r.lanes) {
+    for (const TableRow& row : tables.rows) {
+      std::vector<std::string> cells = PartitionCells(row);
+      cells.insert(cells.begin(), fmt::format("{}", LaneCount(tables)));
+      cells.push_back(fmt::format("{}", row.block_size));
+      const auto number = [](double x) { return fmt::format("{:.6g}", x); };
+      const std::string S_a_steps = number(StepSpeedup(r, row.block_size));
+      if (row.measured()) {
+        const Speedup S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
+        const Interval T = MedianInterval(row.seconds);
+        const double S_a = ClockSpeedup(tables, row.block_size);
+        for (const double x : {MedianSeconds(row), T.low, T.high, S_p.value,
+                               S_p.interval.low, S_p.interval.high}) {
+          cells.push_back(number(x));
+        }
+        cells.insert(cells.end(),
+                     {S_a_steps, number(S_a), number(S_p.value * S_a)});
+      } else {
+        cells.insert(cells.end(), 6, "");
+        cells.insert(cells.end(), {S_a_steps, "", ""});
+      }
+      cells.push_back(row.same_bits ? "true" : "false");
+      cells.push_back(row.measured() ? ""
+                                     : fmt::format("{}", row.processors()));
+      for (const auto figure :
+           {&PaperRow::T, &PaperRow::S_p, &PaperRow::S_a, &PaperRow::S_T}) {
+        cells.push_back(PaperCell(row, figure));
+      }
+      table.AddRow(std::move(cells));
+    }
+  }
+  return table.Csv();
+}
+
+std::string ReportJson(const Reproduction& r) {
+  nlohmann::json json = {{"version", r.machine.version},
+                         {"git_hash", r.machine.git_hash},
+                         {"machine",
+                          {{"cpu", r.machine.cpu},
+                           {"processors", r.machine.processors},
+                           {"kernel", r.machine.kernel},
+                           {"compiler", r.machine.compiler},
+                           {"flags", r.machine.flags},
+                           {"placement", r.placement}}},
+                         {"wait", Name(r.wait.kind)},
+                         {"hold_time_ns", r.wait.hold_time.count()},
+                         {"target_error", kTargetError}};
+  for (const MethodSweep& sweep : r.sweeps) {
+    json["sweeps"].push_back(SweepJson(sweep));
+  }
+  for (const LaneTables& tables : r.lanes) {
+    for (const TableRow& row : tables.rows) {
+      json["table2"].push_back(RowJson(r, tables, row));
+    }
+    json["lift"].push_back({{"lanes", LaneCount(tables)},
+                            {"steps", tables.lift.steps},
+                            {"error", tables.lift.error},
+                            {"seconds", tables.lift.seconds}});
+  }
+  for (const Cost& cost : r.costs) {
+    json["costs"].push_back(
+        {{"name", cost.name}, {"with", cost.with}, {"seconds", cost.seconds}});
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace bench

@@ -1,0 +1,257 @@
+#include "bench/reproduce.h"
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "bench/progress.h"
+#include "macrotask/placement.h"
+
+namespace bench {
+namespace {
+
+using dynamics::Lanes;
+using integrators::BlockMethod;
+using integrators::Figure;
+using integrators::Integration;
+using integrators::IntegrationOptions;
+using integrators::IntegrationResult;
+using integrators::Partition;
+
+// Between these numbers of steps the errors of all three methods pass through
+// the range of the regression.
+constexpr int kFirstSteps = 30;
+constexpr int kLastSteps = 200;
+constexpr Interval kErrorRange = {5e-8, 2e-5};  // m
+
+IntegrationOptions OptionsFor(const BlockMethod& method, const LiftCase& lift,
+                              Partition partition, macrotask::WaitPolicy wait) {
+  return {
+      .method = method,
+      .step = lift.step(),
+      .num_steps = lift.num_steps(),
+      .figure = partition.num_tasks() == 1 ? Figure::kSerial : Figure::kFigure8,
+      .partition = partition,
+      .wait = wait};
+}
+
+MethodSweep Sweep(const BlockMethod& method,
+                  const std::vector<std::unique_ptr<LiftCase>>& lifts) {
+  MethodSweep sweep = {
+      .method = method, .points = {}, .fit = {}, .steps_at_target = 0};
+  std::vector<double> steps, errors;
+  for (const auto& lift : lifts) {
+    const dynamics::ClosedChainSystem system(lift->lift().model,
+                                             lift->torques(), Lanes::kFour);
+    Integration integration(system, OptionsFor(method, *lift, {}, {}));
+    const double error =
+        lift->Error(integration.RunFrom(lift->Planned()).state);
+    sweep.points.push_back({lift->num_steps(), error});
+    if (error < kErrorRange.low || error > kErrorRange.high) continue;
+    steps.push_back(lift->num_steps());
+    errors.push_back(error);
+  }
+  sweep.fit = FitPowerLaw(steps, errors);
+  sweep.steps_at_target = sweep.fit.X(kTargetError);
+  return sweep;
+}
+
+std::vector<MethodSweep> SweepAll(Progress* progress) {
+  std::vector<std::unique_ptr<LiftCase>> lifts;
+  for (int steps = kFirstSteps; steps <= kLastSteps; ++steps) {
+    progress->Show("plan", steps - kFirstSteps, kLastSteps - kFirstSteps);
+    lifts.push_back(std::make_unique<LiftCase>(dynamics::PumaLift(), steps));
+  }
+  std::vector<MethodSweep> sweeps;
+  for (const BlockMethod& method :
+       {integrators::B4PC5(), integrators::B2PC5(), integrators::B1PC5()}) {
+    progress->Show("sweep", static_cast<int>(sweeps.size()), 3);
+    sweeps.push_back(Sweep(method, lifts));
+  }
+  return sweeps;
+}
+
+bool SameBits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+// One row while it is measured.
+struct RunningRow {
+  TableRow* row;
+  std::unique_ptr<Integration> integration;
+  const LiftCase* lift;
+  double scale;  // from the steps that are run to those for the target
+};
+
+// One method's input, at the whole number of steps that reaches the target.
+struct MethodCase {
+  MethodCase(const MethodSweep& of, Lanes lanes)
+      : sweep(of),
+        lift(dynamics::PumaLift(),
+             static_cast<int>(std::ceil(of.steps_at_target))),
+        system(lift.lift().model, lift.torques(), lanes) {}
+
+  const MethodSweep& sweep;
+  LiftCase lift;
+  dynamics::ClosedChainSystem system;
+  std::vector<double> serial_state;
+};
+
+class LaneMeasurement {
+ public:
+  LaneMeasurement(const std::vector<MethodSweep>& sweeps, Lanes lanes,
+                  macrotask::WaitPolicy wait)
+      : wait_(wait), tables_{.lanes = lanes, .rows = {}, .lift = {}} {
+    for (const MethodSweep& sweep : sweeps) {
+      cases_.emplace(sweep.method.block_size,
+                     std::make_unique<MethodCase>(sweep, lanes));
+    }
+    const int processors = macrotask::NumProcessors();
+    tables_.rows = Table2Rows(processors, 4);
+    for (TableRow& row : tables_.rows) Prepare(row, processors);
+    PrepareLift();
+  }
+
+  // Once through all rows that this machine can run. Each runs twice; the first
+  // time warms the caches of the processors that it uses.
+  void Repeat() {
+    for (RunningRow& running : running_) {
+      running.integration->RunFrom(running.lift->Planned());
+      const IntegrationResult result =
+          running.integration->RunFrom(running.lift->Planned());
+      running.row->seconds.push_back(result.seconds() * running.scale);
+    }
+    lift_->Run(lift_start_);
+    tables_.lift.seconds.push_back(lift_->Run(lift_start_).seconds());
+  }
+
+  LaneTables Take() { return std::move(tables_); }
+
+ private:
+  // Runs the row once, for correctness; keeps it if there are processors for
+  // its tasks.
+  void Prepare(TableRow& row, int processors) {
+    MethodCase& method = *cases_.at(row.block_size);
+    auto integration = std::make_unique<Integration>(
+        method.system,
+        OptionsFor(method.sweep.method, method.lift, row.partition, wait_));
+    const IntegrationResult result =
+        integration->RunFrom(method.lift.Planned());
+    // The serial rows come first.
+    if (method.serial_state.empty()) method.serial_state = result.state;
+    row.same_bits = SameBits(result.state, method.serial_state);
+    if (row.processors() > processors) return;
+    running_.push_back(
+        {&row, std::move(integration), &method.lift,
+         method.sweep.steps_at_target / method.lift.num_steps()});
+  }
+
+  void PrepareLift() {
+    MethodCase& method = *cases_.at(1);
+    lift_ = std::make_unique<Integration>(
+        method.system, OptionsFor(method.sweep.method, method.lift, {}, wait_));
+    lift_start_ = method.lift.InitialState();
+    tables_.lift.steps = method.lift.num_steps();
+    tables_.lift.error = method.lift.Error(lift_->Run(lift_start_).state);
+  }
+
+  macrotask::WaitPolicy wait_;
+  LaneTables tables_;
+  std::map<int, std::unique_ptr<MethodCase>> cases_;  // by block size
+  std::vector<RunningRow> running_;
+  std::unique_ptr<Integration> lift_;
+  std::vector<double> lift_start_;
+};
+
+}  // namespace
+
+std::vector<TableRow> Table2Rows(int processors, int num_chains) {
+  std::vector<TableRow> rows;
+  const auto add = [&](Partition partition, int block_size,
+                       const PaperRow* paper) {
+    TableRow row = {};
+    row.partition = partition;
+    row.block_size = block_size;
+    row.paper = paper;
+    rows.push_back(std::move(row));
+  };
+  const auto has = [&](Partition partition, int block_size) {
+    for (const PaperRow& paper : kPaperTable2) {
+      if (paper.chain_tasks == partition.chain_tasks &&
+          paper.integration_tasks == partition.integration_tasks &&
+          paper.block_size == block_size) {
+        return true;
+      }
+    }
+    return false;
+  };
+  bool own_added = false;
+  for (const PaperRow& paper : kPaperTable2) {
+    if (paper.processors > 1 && !own_added) {
+      own_added = true;
+      for (const int block_size : {4, 2, 1}) {
+        for (int m = 1; m <= num_chains; ++m) {
+          const int p = processors / m;
+          const bool divides =
+              m * p == processors && num_chains % m == 0 && block_size % p == 0;
+          if (processors > 1 && divides && p <= block_size &&
+              !has({m, p}, block_size)) {
+            add({m, p}, block_size, nullptr);
+          }
+        }
+      }
+    }
+    add({paper.chain_tasks, paper.integration_tasks}, paper.block_size, &paper);
+  }
+  return rows;
+}
+
+const MethodSweep& SweepOf(const Reproduction& reproduction, int block_size) {
+  for (const MethodSweep& sweep : reproduction.sweeps) {
+    if (sweep.method.block_size == block_size) return sweep;
+  }
+  throw std::out_of_range("no sweep of that block size");
+}
+
+const TableRow& SerialRow(const LaneTables& tables, int block_size) {
+  for (const TableRow& row : tables.rows) {
+    if (row.block_size == block_size && row.processors() == 1) return row;
+  }
+  throw std::out_of_range("no serial row of that block size");
+}
+
+Reproduction Reproduce(const ReproduceOptions& options) {
+  Progress progress;
+  Reproduction result;
+  result.machine = DescribeMachine();
+  result.wait = options.wait;
+  result.placement =
+      macrotask::Placement(macrotask::NumProcessors()).ToString();
+  result.sweeps = SweepAll(&progress);
+
+  std::vector<LaneMeasurement> measurements;
+  measurements.reserve(2);  // rows are pointed to
+  for (const Lanes lanes : {Lanes::kFour, Lanes::kOne}) {
+    measurements.emplace_back(result.sweeps, lanes, options.wait);
+  }
+  for (int r = 0; r < options.repetitions; ++r) {
+    progress.Show("measure", r, options.repetitions);
+    for (LaneMeasurement& measurement : measurements) measurement.Repeat();
+  }
+  for (LaneMeasurement& measurement : measurements) {
+    result.lanes.push_back(measurement.Take());
+  }
+
+  const LiftCase middle(dynamics::PumaLift(), 100);
+  result.costs = MeasureBlocks(middle, options.repetitions);
+  for (Cost& cost : MeasureSynchronization(options.wait, options.repetitions)) {
+    result.costs.push_back(std::move(cost));
+  }
+  return result;
+}
+
+}  // namespace bench

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/costs.h"
+#include "bench/lift_case.h"
+#include "bench/machine.h"
+#include "bench/paper.h"
+#include "bench/statistics.h"
+
+namespace bench {
+
+struct ReproduceOptions {
+  int repetitions = 200;
+  macrotask::WaitPolicy wait;
+};
+
+// The error of the lift with one number of steps, without a clock.
+struct SweepPoint {
+  int steps;
+  double error;  // m
+};
+
+// The errors of one method over its sweep, and the number of steps for an error
+// of 1e-6 m by log-log regression over errors from 5e-8 m to 2e-5 m.
+struct MethodSweep {
+  integrators::BlockMethod method;
+  std::vector<SweepPoint> points;
+  PowerLaw fit;
+  double steps_at_target;
+};
+
+// One row of Table 2 (and of Table 1, if the block has four points).
+struct TableRow {
+  int processors() const { return partition.num_tasks(); }
+  bool measured() const { return !seconds.empty(); }
+
+  integrators::Partition partition;
+  int block_size;
+  const PaperRow* paper;  // null if the paper has no such row
+  // Whether the states are, bit for bit, those of the serial program.
+  bool same_bits = false;
+  // T of each repetition (s): the lift's time, scaled from the whole number of
+  // steps that was run to the one for 1e-6 m. Empty if the row needs more
+  // processors than there are.
+  std::vector<double> seconds;
+};
+
+// The lift with B1PC5 on one processor, its DOPRI5 start included.
+struct LiftRun {
+  int steps;
+  double error;                 // m
+  std::vector<double> seconds;  // by repetition
+};
+
+struct LaneTables {
+  dynamics::Lanes lanes;
+  std::vector<TableRow> rows;
+  LiftRun lift;
+};
+
+struct Reproduction {
+  Machine machine;
+  std::string placement;
+  macrotask::WaitPolicy wait;
+  std::vector<MethodSweep> sweeps;  // B4PC5, B2PC5, B1PC5
+  std::vector<LaneTables> lanes;    // four, one
+  std::vector<Cost> costs;
+};
+
+// Distance (m) for which execution times are compared.
+inline constexpr double kTargetError = 1e-6;
+
+// Runs the canonical experiment.
+Reproduction Reproduce(const ReproduceOptions& options);
+
+// The rows of Table 2 for a machine of that many processors: the paper's, with
+// those that use all of this machine's processors behind the serial ones.
+std::vector<TableRow> Table2Rows(int processors, int num_chains);
+
+const MethodSweep& SweepOf(const Reproduction& reproduction, int block_size);
+const TableRow& SerialRow(const LaneTables& tables, int block_size);
+
+}  // namespace bench

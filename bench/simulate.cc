@@ -1,0 +1,167 @@
+#include "bench/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include "bench/lift_case.h"
+#include "bench/output_file.h"
+#include "dynamics/kinematics.h"
+#include "macrotask/placement.h"
+
+namespace bench {
+namespace {
+
+using dynamics::MemberState;
+
+std::vector<Eigen::VectorXd> ChainStates(
+    const dynamics::ClosedChainSystem& system, const double* state) {
+  std::vector<Eigen::VectorXd> states;
+  for (int k = 0; k < system.num_chains(); ++k) {
+    const int size = system.chain_size(k);
+    states.push_back(Eigen::Map<const Eigen::VectorXd>(state, size));
+    state += size;
+  }
+  return states;
+}
+
+// How far the member, as a chain carries it, is from where it is.
+struct Drift {
+  double position = 0;  // m
+  double rotation = 0;  // rad
+};
+Drift WorstDrift(const dynamics::ClosedChainSystem& system,
+                 const std::vector<double>& state,
+                 const MemberState<double>& member) {
+  const Eigen::Matrix3d axes = dynamics::MemberAxes(member.Q);
+  const auto chain_states = ChainStates(system, state.data());
+  Drift worst;
+  for (int k = 0; k < system.num_chains(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const Eigen::VectorXd q = chain_states[at].head(system.chain_size(k) / 2);
+    const Eigen::Isometry3d carried =
+        dynamics::CalcMemberPose(system.model().chains[at], q);
+    worst.position =
+        std::max(worst.position, (carried.translation() - member.p).norm());
+    const Eigen::AngleAxisd turn(
+        Eigen::Matrix3d(carried.linear() * axes.transpose()));
+    worst.rotation = std::max(worst.rotation, turn.angle());
+  }
+  return worst;
+}
+
+std::string TrajectoryHeader(const dynamics::ClosedChainSystem& system) {
+  std::string header =
+      "t,Q_w,Q_x,Q_y,Q_z,p_x,p_y,p_z,omega_x,omega_y,omega_z,v_x,v_y,v_z";
+  for (int k = 0; k < system.num_chains(); ++k) {
+    const int n = system.chain_size(k) / 2;
+    for (const char* name : {"q", "qd", "tau"}) {
+      for (int i = 1; i <= n; ++i) {
+        header += fmt::format(",{}_{}_{}", name, k, i);
+      }
+    }
+    for (const char* name : {"n_x", "n_y", "n_z", "f_x", "f_y", "f_z"}) {
+      header += fmt::format(",{}_{}", name, k);
+    }
+  }
+  return header + "\n";
+}
+
+// One row a grid point: time, reference member, and for every chain positions,
+// rates, torques and the tip force (moment n, force f, about the member's
+// centre of mass, world axes).
+std::string TrajectoryCsv(const dynamics::ClosedChainSystem& system,
+                          const integrators::Integration& integration,
+                          double step) {
+  std::string csv = TrajectoryHeader(system);
+  auto out = std::back_inserter(csv);
+  const auto append = [&](double x) { fmt::format_to(out, ",{}", x); };
+  const std::size_t size = integration.layout().size();
+  const std::vector<double>& trajectory = integration.trajectory();
+  for (std::size_t n = 0; n < trajectory.size() / size; ++n) {
+    const double* state = trajectory.data() + n * size;
+    const double* member = state + integration.layout().common_offset();
+    const double t = static_cast<double>(n) * step;
+    const auto chain_states = ChainStates(system, state);
+    const auto accelerations = dynamics::CalcClosedChainAccelerations(
+        system, t, chain_states, dynamics::UnpackMember(member));
+    fmt::format_to(out, "{}", t);
+    std::for_each_n(member, dynamics::kMemberStateSize, append);
+    for (std::size_t k = 0; k < chain_states.size(); ++k) {
+      for (const double x : chain_states[k]) append(x);
+      for (const double x : accelerations.tau[k]) append(x);
+      for (const double x : accelerations.f[k]) append(x);
+    }
+    csv += '\n';
+  }
+  return csv;
+}
+
+std::string Report(const SimulateOptions& options, const LiftCase& lift,
+                   const dynamics::ClosedChainSystem& system,
+                   const integrators::IntegrationResult& result) {
+  const MemberState<double> member = lift.Member(result.state);
+  const Drift drift = WorstDrift(system, result.state, member);
+  const int tasks = options.partition.num_tasks();
+  const double duration = lift.lift().duration;
+  return fmt::format(
+      "method:            {}, {} steps of {} s\n"
+      "tasks:             {} ({}: m^ = {}, p^ = {}), {}\n"
+      "waiting:           {}\n"
+      "lanes:             {}\n"
+      "final position:    {:.12f} {:.12f} {:.12f} m\n"
+      "final orientation: {:.12f} {:.12f} {:.12f} {:.12f} (w x y z)\n"
+      "error:             {:.3e} m from the planned end\n"
+      "drift of grips:    {:.3e} m, {:.3e} rad (worst of {})\n"
+      "evaluations:       {}\n"
+      "time:              {:.1f} us (start {:.1f} us)\n"
+      "real-time factor:  {:.0f}\n",
+      options.method, lift.num_steps(), lift.step(), tasks,
+      Name(options.figure), options.partition.chain_tasks,
+      options.partition.integration_tasks,
+      macrotask::Placement(tasks).ToString(), Name(options.wait.kind),
+      static_cast<int>(options.lanes), member.p[0], member.p[1], member.p[2],
+      member.Q[0], member.Q[1], member.Q[2], member.Q[3],
+      lift.Error(result.state), drift.position, drift.rotation,
+      system.num_chains(), result.evaluations, result.seconds() * 1e6,
+      result.start_seconds * 1e6, duration / result.seconds());
+}
+
+}  // namespace
+
+std::string Simulate(const SimulateOptions& options) {
+  const auto method = integrators::ParseBlockMethod(options.method);
+  if (options.num_chains < 1) {
+    throw std::invalid_argument(
+        fmt::format("{} chains: expected at least one", options.num_chains));
+  }
+  if (!options.output.empty()) CheckOutput(options.output);
+  dynamics::Lift input =
+      dynamics::PumaLift(options.num_chains, options.rotor_inertia);
+  const int steps = integrators::CountSteps(input.duration, options.step);
+  const LiftCase lift(std::move(input), steps);
+  const dynamics::ClosedChainSystem system(lift.lift().model, lift.torques(),
+                                           options.lanes);
+  integrators::Integration integration(system,
+                                       {.method = method,
+                                        .step = lift.step(),
+                                        .num_steps = steps,
+                                        .figure = options.figure,
+                                        .partition = options.partition,
+                                        .wait = options.wait,
+                                        .record = !options.output.empty()});
+  const auto result = options.start == StartKind::kPlan
+                          ? integration.RunFrom(lift.Planned())
+                          : integration.Run(lift.InitialState());
+  std::string report = Report(options, lift, system, result);
+  if (!options.output.empty()) {
+    WriteOutput(options.output,
+                TrajectoryCsv(system, integration, lift.step()));
+    if (options.output == "-") report.clear();
+  }
+  return report;
+}
+
+}  // namespace bench

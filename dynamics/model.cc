@@ -1,0 +1,78 @@
+#include "dynamics/model.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "Eigen/Eigenvalues"
+
+namespace dynamics {
+namespace {
+
+// Link frame after a standard Denavit-Hartenberg row, in the joint frame:
+// what follows the rotation by q about, or the translation by q along, z.
+Eigen::Isometry3d AfterJoint(const DhRow& row) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.rotate(Eigen::AngleAxisd(row.theta, Eigen::Vector3d::UnitZ()));
+  pose.translate(Eigen::Vector3d(row.a, 0, row.d));
+  pose.rotate(Eigen::AngleAxisd(row.alpha, Eigen::Vector3d::UnitX()));
+  return pose;
+}
+
+[[noreturn]] void Reject(const std::string& where, const std::string& what) {
+  throw std::invalid_argument(where + ": " + what);
+}
+
+void CheckInertia(const std::string& where, double mass,
+                  const Eigen::Matrix3d& inertia) {
+  if (!std::isfinite(mass) || mass < 0) {
+    Reject(where, "the mass must be a finite number of kg, not below zero");
+  }
+  if (!inertia.allFinite() || !inertia.isApprox(inertia.transpose())) {
+    Reject(where, "the inertia must be a finite, symmetric matrix");
+  }
+}
+
+}  // namespace
+
+ArmModel ArmFromDh(std::string name, const std::vector<DhRow>& rows) {
+  ArmModel arm;
+  arm.name = std::move(name);
+  Eigen::Isometry3d parent_to_joint = Eigen::Isometry3d::Identity();
+  for (const DhRow& row : rows) {
+    const Eigen::Isometry3d link_frame = AfterJoint(row);
+    const Eigen::Matrix3d R = link_frame.linear();
+    Link link;
+    link.type = row.type;
+    link.parent_to_joint = parent_to_joint;
+    link.mass = row.mass;
+    link.com = link_frame * row.com;
+    link.inertia = R * row.principal_inertia.asDiagonal() * R.transpose();
+    link.rotor_inertia = row.rotor_inertia;
+    arm.links.push_back(link);
+    parent_to_joint = link_frame;
+  }
+  arm.tip = parent_to_joint;
+  return arm;
+}
+
+void CheckModel(const SystemModel& model) {
+  if (model.chains.empty()) Reject("the system", "expected at least one chain");
+  for (int k = 0; k < model.num_chains(); ++k) {
+    const ArmModel& arm = model.chains[k].arm;
+    const std::string chain = "chain " + std::to_string(k);
+    if (arm.links.empty()) Reject(chain, "expected at least one joint");
+    for (int i = 0; i < arm.num_joints(); ++i) {
+      CheckInertia(chain + ", link " + std::to_string(i + 1), arm.links[i].mass,
+                   arm.links[i].inertia);
+    }
+  }
+  CheckInertia("the reference member", model.member.mass, model.member.inertia);
+  if (!(model.member.mass > 0) ||
+      !(model.member.inertia.selfadjointView<Eigen::Lower>()
+            .eigenvalues()
+            .minCoeff() > 0)) {
+    Reject("the reference member", "mass and inertia must be positive");
+  }
+}
+
+}  // namespace dynamics

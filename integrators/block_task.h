@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "integrators/block_run.h"
+
+namespace integrators {
+
+// One task of a run: the blocks of Figures 2, 3, 7 and 8, for the chains and
+// the block points that this task owns. The figures are written in these words;
+// what they add is who waits for whom.
+//
+// Use: by its own task only. Between calls of several tasks, the figure must
+// synchronize as each call says. No call allocates.
+class BlockTask {
+ public:
+  // Task (i, k), both counted from 0: integration task i < p^, chain task k <
+  // m^. `factory` is the run's.
+  BlockTask(BlockRun* run, int i, int k, EvaluationFactory* factory);
+
+  int num_blocks() const { return run_.num_blocks; }
+
+  // CS, compute state: the predicted states of the owned points of block
+  // `block`. Requires the shift of the block before.
+  void Predict(int block);
+
+  // CS: the corrected states. Requires the predicted derivatives of all points
+  // of the column.
+  void Correct();
+
+  // OCD of the owned chains at the owned points.
+  void Ocd(Phase phase);
+
+  // RMA at the owned points, on the own copy of the common state. Requires OCD
+  // of all chains at these points.
+  void Rma(Phase phase);
+
+  // CCD of the owned chains at the owned points. Requires RMA.
+  void Ccd(Phase phase);
+
+  // Shifts the blocks of the column. Requires the corrected derivatives of all
+  // its points, and that nobody reads the column meanwhile.
+  void ShiftBlocks() { column_.ShiftBlocks(); }
+
+  // Whether any point of the last evaluations failed. All tasks of a run get
+  // the same answer, once the column has synchronized after Ccd: every chain
+  // task of a point sees what all chains left for RMA, and every column sees
+  // all points.
+  bool Failed() const;
+
+  // What the system's user code threw in this task since the last call.
+  std::exception_ptr TakeError() { return evaluation_->TakeError(); }
+
+ private:
+  int point(int local) const { return first_point_ + local; }  // 1 ... b
+  void BindPoint(int i);
+
+  BlockRun& run_;
+  Column& column_;
+  Failure& failure_;      // this task's
+  const int rma_column_;  // chain task whose RMA this task's CCD reads
+  const int first_point_;
+  const int num_points_;
+  int block_ = 0;
+
+  std::unique_ptr<Evaluation> evaluation_;
+  AlignedDoubles own_coupling_;
+  double* coupling_;           // (points x coupling size)
+  std::vector<double> times_;  // (points)  s
+  std::vector<int> codes_;     // (points)
+
+  // h times the weights, and what they multiply, by point.
+  std::vector<std::vector<double>> predictor_weights_, corrector_weights_;
+  std::vector<const double*> predictor_f_, corrector_f_;
+  // Views of the slots: states by pair and by point, derivatives by phase.
+  std::vector<const double*> chain_states_, common_states_;
+  std::vector<double*> chain_rates_[2], common_rates_[2];
+};
+
+}  // namespace integrators

@@ -1,0 +1,142 @@
+#include "integrators/integration.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "macrotask/barrier.h"
+#include "macrotask/task.h"
+
+namespace integrators {
+namespace {
+
+// Returns `options` if they suit the system; throws otherwise.
+const IntegrationOptions& Checked(const System& system,
+                                  const IntegrationOptions& options) {
+  const auto [m, p] = options.partition;
+  const auto check = [](bool good, const std::string& sentence) {
+    if (!good) throw std::invalid_argument(sentence);
+  };
+  check(m >= 1 && m <= system.num_chains(),
+        std::to_string(m) + " chain tasks: expected 1 to " +
+            std::to_string(system.num_chains()) + ", the number of chains");
+  check(p >= 1 && p <= options.method.block_size,
+        std::to_string(p) + " integration tasks: expected 1 to " +
+            std::to_string(options.method.block_size) +
+            ", the points of a block of " + options.method.name());
+  check(options.step > 0, "the step must be positive");
+  const int needed = options.method.num_values - 1 + options.method.block_size;
+  check(options.num_steps >= needed,
+        std::to_string(options.num_steps) + " steps: " + options.method.name() +
+            " needs at least " + std::to_string(needed));
+  return options;
+}
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+}  // namespace
+
+int CountSteps(double duration, double step) {
+  const double steps = std::round(duration / step);
+  if (!(step > 0) || !(steps >= 1) || steps > 1e9 ||
+      std::abs(steps * step - duration) > 1e-9 * step) {
+    throw std::invalid_argument("the step of " + std::to_string(step) +
+                                " s does not divide the duration of " +
+                                std::to_string(duration) + " s");
+  }
+  return static_cast<int>(steps);
+}
+
+Integration::Integration(std::unique_ptr<System> system,
+                         const IntegrationOptions& options)
+    : system_(std::move(system)),
+      wait_(options.wait),
+      run_(*system_, Checked(*system_, options).method, options.step,
+           options.num_steps, options.partition, RmaSharingOf(options.figure)),
+      start_(*system_),
+      factory_(system_->MakeFactory(options.method.block_size)),
+      figure_(options.figure) {
+  MakeTaskStructure(figure_, options.partition, wait_);
+  const auto [m, p] = options.partition;
+  for (int i = 0; i < p; ++i) {
+    for (int k = 0; k < m; ++k) {
+      tasks_.push_back(
+          std::make_unique<BlockTask>(&run_, i, k, factory_.get()));
+    }
+  }
+  if (options.record) {
+    trajectory_.resize((static_cast<std::size_t>(options.num_steps) + 1) *
+                       run_.layout.size());
+    run_.trajectory = trajectory_.data();
+  }
+}
+
+template <typename StartFunction>
+IntegrationResult Integration::RunTasks(StartFunction start) {
+  const Partition partition = run_.partition;
+  const auto structure = MakeTaskStructure(figure_, partition, wait_);
+  macrotask::Barrier all(partition.num_tasks(), wait_);
+  IntegrationResult result;
+  std::exception_ptr start_error;
+
+  const auto body = [&](int task) {
+    all.Sync();  // all tasks are there
+    const auto begin = std::chrono::steady_clock::now();
+    if (task == 0) {
+      // The others wait for the start: an exception must not pass them by.
+      try {
+        result.evaluations = start();
+      } catch (...) {
+        start_error = std::current_exception();
+      }
+      result.start_seconds = SecondsSince(begin);
+    }
+    all.Sync();
+    if (start_error) return;
+    structure->Run(task / partition.chain_tasks, task % partition.chain_tasks,
+                   *tasks_[static_cast<std::size_t>(task)]);
+    all.Sync();
+    if (task == 0) {
+      result.block_seconds = SecondsSince(begin) - result.start_seconds;
+    }
+  };
+  macrotask::RunTasks(partition.num_tasks(), body, wait_);
+
+  if (start_error) std::rethrow_exception(start_error);
+  std::exception_ptr user_error;
+  for (const auto& task : tasks_) {
+    const std::exception_ptr error = task->TakeError();
+    if (!user_error) user_error = error;
+  }
+  if (user_error) std::rethrow_exception(user_error);
+  if (const Failure failure = run_.FirstFailure(); failure.code != 0) {
+    throw IntegrationError(system_->DescribeFailure(failure.code),
+                           failure.time);
+  }
+  result.state.resize(run_.layout.size());
+  for (Column& column : run_.columns) {
+    run_.CopyToFull(column, column.y0().data(), result.state.data());
+  }
+  result.evaluations += 2LL * run_.num_blocks * run_.method.block_size;
+  return result;
+}
+
+IntegrationResult Integration::Run(const std::vector<double>& y0) {
+  if (y0.size() != run_.layout.size()) {
+    throw std::invalid_argument(
+        "the initial state has " + std::to_string(y0.size()) +
+        " numbers: expected " + std::to_string(run_.layout.size()));
+  }
+  return RunTasks([&] { return start_.Dopri5(y0.data(), &run_); });
+}
+
+IntegrationResult Integration::RunFrom(const ExactValues& values) {
+  return RunTasks([&] { return start_.Exact(values, &run_); });
+}
+
+}  // namespace integrators

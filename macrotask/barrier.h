@@ -1,0 +1,64 @@
+#pragma once
+
+#include <pthread.h>
+
+#include <variant>
+
+#include "macrotask/counting_barrier.h"
+#include "macrotask/wait_policy.h"
+
+namespace macrotask {
+
+// Internal: pthread_barrier_t with its errors checked, for WaitPolicy::Block().
+class BlockingBarrier {
+ public:
+  explicit BlockingBarrier(int num_tasks);
+  ~BlockingBarrier() { pthread_barrier_destroy(&barrier_); }
+  BlockingBarrier(const BlockingBarrier&) = delete;
+  BlockingBarrier& operator=(const BlockingBarrier&) = delete;
+
+  void Sync();
+
+ private:
+  pthread_barrier_t barrier_;
+};
+
+// Holds every task that calls Sync() until `num_tasks` tasks have called it,
+// then releases them all and is at once ready for the next phase.
+//
+// Cray name: BARSYNC, on a barrier assigned by BARASGN.
+// Use: exactly `num_tasks` tasks call Sync(), once per phase each. The barrier
+// must outlive the last return from Sync(). A barrier of 1 holds nobody.
+// Memory ordering: what any task wrote before its k-th Sync() is visible to
+// every task after its own k-th Sync() returns.
+// Cost: one atomic increment per task and one line that all waiters read; under
+// WaitPolicy::Block() a pthread_barrier_t (bench row "BARSYNC").
+//
+//   Barrier barrier(num_tasks);
+//   RunTasks(num_tasks, [&](int task) {
+//     for (int step = 0; step < num_steps; ++step) {
+//       Advance(task); barrier.Sync(); } });
+class Barrier {
+ public:
+  // Makes a barrier of `num_tasks` tasks that wait as `policy` says. Throws
+  // std::invalid_argument if `num_tasks` < 1.
+  explicit Barrier(int num_tasks, WaitPolicy policy = {});
+  Barrier(const Barrier&) = delete;
+  Barrier& operator=(const Barrier&) = delete;
+
+  // Returns when `num_tasks()` tasks have called it in this phase.
+  void Sync();
+
+  int num_tasks() const { return num_tasks_; }
+
+ private:
+  // One alternative per algorithm, one file per alternative; the constructor
+  // chooses, by policy and number of tasks.
+  using Algorithm =
+      std::variant<std::monostate, BlockingBarrier, CountingBarrier>;
+
+  const int num_tasks_;
+  Algorithm algorithm_;
+};
+
+}  // namespace macrotask

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+
+namespace macrotask {
+
+// Stands for "whichever processor the system chooses".
+inline constexpr int kAnyProcessor = -1;
+
+// Number of processors that this process was allowed to use when the library
+// first asked (its affinity mask, not the machine). At least 1. Thread-safe.
+int NumProcessors();
+
+// True iff `processor` is one of those NumProcessors() counts. Thread-safe.
+bool IsUsable(int processor);
+
+// Where the tasks of a RunTasks() go: one processor each, in ascending order of
+// the affinity mask, if there are enough of them; otherwise wherever the system
+// puts them. An immutable value, so that it may be read by any task.
+//
+// Cray name: none; the paper's tasks had a processor each (TSKTUNE's MAXCPU).
+// Cost: computed, not measured; it moves nobody.
+//
+//   Placement placement(num_tasks);
+//   std::cout << placement.ToString() << '\n';
+//   // 2 tasks pinned: task 0 on processor 0, task 1 on processor 1
+class Placement {
+ public:
+  // Throws std::invalid_argument if `num_tasks` < 1.
+  explicit Placement(int num_tasks);
+
+  // True iff every task has a processor of its own.
+  bool pinned() const { return pinned_; }
+  int num_tasks() const { return num_tasks_; }
+
+  // The system's number of the processor of `task`, which is in
+  // [0, num_tasks()), or kAnyProcessor if the tasks are not pinned.
+  int processor(int task) const;
+
+  // One line without a full stop, such as "16 tasks on 2 processors, not
+  // pinned".
+  std::string ToString() const;
+
+ private:
+  int num_tasks_;
+  bool pinned_;
+};
+
+}  // namespace macrotask

@@ -1,0 +1,134 @@
+#include "macrotask/task.h"
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "macrotask/affinity.h"
+#include "macrotask/load.h"
+
+namespace macrotask {
+namespace {
+
+// std::system_error whose text is one sentence, which the standard one would
+// end with a colon and the name of the error.
+class CannotStartTasks : public std::system_error {
+ public:
+  CannotStartTasks(int num_tasks, int num_threads, std::error_code code)
+      : std::system_error(code),
+        text_("cannot start " + std::to_string(num_tasks) +
+              (num_tasks == 1 ? " task" : " tasks") +
+              ": the system allows no more threads after " +
+              std::to_string(num_threads) + " (" + code.message() + ")") {}
+
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+Worker* AcquireForTask(int processor) {
+  WorkerPool& pool = WorkerPool::TheOne();
+  try {
+    return pool.Acquire(processor);
+  } catch (const std::system_error& error) {
+    throw CannotStartTasks(1, pool.num_workers() + 1, error.code());
+  }
+}
+
+// Returns workers for the tasks 1 .. num_tasks - 1, or throws and gives those
+// obtained back to the system.
+std::vector<Worker*> AcquireForTasks(const std::vector<int>& processors) {
+  WorkerPool& pool = WorkerPool::TheOne();
+  std::vector<Worker*> workers;
+  workers.reserve(processors.size());
+  try {
+    for (std::size_t task = 1; task < processors.size(); ++task) {
+      workers.push_back(pool.Acquire(processors[task]));
+    }
+  } catch (const std::system_error& error) {
+    const int num_threads = pool.num_workers() + 1;
+    for (Worker* worker : workers) pool.Return(worker);
+    pool.JoinIdle();
+    throw CannotStartTasks(static_cast<int>(processors.size()), num_threads,
+                           error.code());
+  }
+  return workers;
+}
+
+// One processor per task.
+std::vector<int> ProcessorsOf(const Placement& placement) {
+  std::vector<int> processors(static_cast<std::size_t>(placement.num_tasks()),
+                              kAnyProcessor);
+  // Other tasks would share the processors and be as many more in their way.
+  const bool alone = live_tasks.load(std::memory_order_relaxed) == 1;
+  for (int task = 0; alone && task < placement.num_tasks(); ++task) {
+    processors[static_cast<std::size_t>(task)] = placement.processor(task);
+  }
+  return processors;
+}
+
+}  // namespace
+
+Task::Task(std::function<void()> body, TaskOptions options)
+    : job_{.body = std::move(body),
+           .wait = options.wait,
+           .processor = options.processor,
+           .value = options.value,
+           .failure = {},
+           .done = {}} {
+  if (!job_.body) throw std::invalid_argument("a task needs a body");
+  if (options.processor != kAnyProcessor && !IsUsable(options.processor)) {
+    throw std::invalid_argument("processor " +
+                                std::to_string(options.processor) +
+                                " is none that this process may use");
+  }
+  AcquireForTask(options.processor)->Start(job_);
+}
+
+Task::~Task() { job_.Await(); }
+
+void Task::Wait() {
+  job_.Await();
+  if (job_.failure) std::rethrow_exception(job_.failure);
+}
+
+bool Task::Test() const { return job_.done.Read() == 0; }
+
+std::uint64_t Task::Value() { return UserValueOfCaller(); }
+
+void RunTasks(int num_tasks, const std::function<void(int)>& body,
+              WaitPolicy wait) {
+  const Placement placement(num_tasks);
+  if (!body) throw std::invalid_argument("tasks need a body");
+  const std::vector<int> processors = ProcessorsOf(placement);
+
+  // Everything that can fail comes before the first start.
+  std::vector<Job> jobs(processors.size() - 1);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const int task = static_cast<int>(i) + 1;
+    jobs[i].body = [&body, task] { body(task); };
+    jobs[i].wait = wait;
+    jobs[i].processor = processors[i + 1];
+  }
+  const std::vector<Worker*> workers = AcquireForTasks(processors);
+
+  const ScopedProcessor on_own_processor(processors[0]);
+  for (std::size_t i = 0; i < jobs.size(); ++i) workers[i]->Start(jobs[i]);
+  std::exception_ptr failure;
+  try {
+    body(0);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  for (Job& job : jobs) {
+    job.Await();
+    if (!failure) failure = job.failure;
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace macrotask

@@ -1,0 +1,24 @@
+#include "macrotask/wait_policy.h"
+
+namespace macrotask {
+
+std::string_view Name(WaitKind kind) {
+  switch (kind) {
+    case WaitKind::kBlock:
+      return "block";
+    case WaitKind::kSpin:
+      return "spin";
+    case WaitKind::kHold:
+      return "hold";
+  }
+  return "unknown";
+}
+
+std::optional<WaitKind> ParseWaitKind(std::string_view name) {
+  for (WaitKind kind : {WaitKind::kBlock, WaitKind::kSpin, WaitKind::kHold}) {
+    if (name == Name(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
+}  // namespace macrotask

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+namespace macrotask {
+
+// How a task waits for a barrier, an event, a lock or another task.
+enum class WaitKind {
+  kBlock,  // sleeps at once: pthread_barrier_t, or mutex and condition variable
+  kSpin,   // never sleeps; yields if there are more tasks than processors
+  kHold,   // holds its processor for a while, spinning, then sleeps
+};
+
+// How long a `hold` wait spins before it sleeps. To fall asleep and to be woken
+// costs 20 to 30 us (measured on a 2-processor KVM guest, Zen 3 class): to spin
+// for less throws that away for waits which were about to end, to spin for much
+// longer burns more than it can save. 50 us is twice that cost.
+inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
+    std::chrono::microseconds(50);
+
+// How a task waits: the kind and, for kHold, the time. A plain value, fixed
+// when a barrier, event, lock or task is made. Objects of different policies
+// may be used side by side by the same tasks.
+//
+// Cray name: HOLDTIME, a keyword of TSKTUNE, is `hold_time`.
+// Use: with more live tasks than processors kHold sleeps at once and kSpin
+// yields the processor between two looks, so that every policy makes progress
+// with any number of tasks. Live tasks are the initial one and those of this
+// library; other threads of the program are not counted.
+// Cost: every bench row of a synchronization has one line for each policy.
+//
+//   Barrier faithful(num_tasks, WaitPolicy::Block());
+//   Barrier dedicated(num_tasks, WaitPolicy::Spin());
+//   Barrier usual(num_tasks);  // WaitPolicy::Hold()
+//   Event patient(WaitPolicy::Hold(std::chrono::milliseconds(1)));
+struct WaitPolicy {
+  WaitKind kind = WaitKind::kHold;
+  std::chrono::nanoseconds hold_time = kDefaultHoldTime;  // used by kHold only
+
+  static constexpr WaitPolicy Block() {
+    return {WaitKind::kBlock, kDefaultHoldTime};
+  }
+  static constexpr WaitPolicy Spin() {
+    return {WaitKind::kSpin, kDefaultHoldTime};
+  }
+  static constexpr WaitPolicy Hold(
+      std::chrono::nanoseconds hold_time = kDefaultHoldTime) {
+    return {WaitKind::kHold, hold_time};
+  }
+
+  friend bool operator==(const WaitPolicy&, const WaitPolicy&) = default;
+};
+
+// Returns "block", "spin" or "hold".
+std::string_view Name(WaitKind kind);
+
+// Returns the kind that Name() calls `name`, or nothing if there is none.
+std::optional<WaitKind> ParseWaitKind(std::string_view name);
+
+}  // namespace macrotask

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <pthread.h>
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+
+#include "macrotask/epoch.h"
+#include "macrotask/mutex.h"
+#include "macrotask/placement.h"
+#include "macrotask/wait_policy.h"
+
+namespace macrotask {
+
+// Internal: what a Worker runs for a task, and what became of it. Lives with
+// the one who waits for the task.
+struct Job {
+  std::function<void()> body;
+  WaitPolicy wait;                // of the tasks that wait for this one
+  int processor = kAnyProcessor;  // where the body runs
+  std::uint64_t value = 0;        // the user value, Task::Value() in the body
+  std::exception_ptr failure;     // what the body threw; valid once done is 1
+  Epoch done;                     // 0: not complete, 1: complete
+
+  // Returns when the body has ended. The caller is no live task meanwhile.
+  void Await();
+};
+
+// The user value of the calling task; 0 in pthreads that are no tasks.
+std::uint64_t UserValueOfCaller();
+
+// Internal: a pthread that runs one job after the other and holds its processor
+// for a while in between, so that the next one can start without a system call.
+class Worker {
+ public:
+  // Creates the pthread, on `processor`. Throws std::system_error.
+  explicit Worker(int processor);
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  // Runs `job`, which must live until it is done. Requires: the worker is idle
+  // and was acquired by the caller.
+  void Start(Job& job) noexcept;
+
+  // Ends and joins the pthread. Requires: as Start().
+  void Join();
+
+ private:
+  friend class WorkerPool;
+  static void* Main(void* worker);
+  void RunJobs();
+  WaitPolicy Run(Job& job);
+
+  pthread_t pthread_;
+  int processor_;                // the affinity of the pthread now
+  Job* job_ = nullptr;           // written before given_, null: end
+  Epoch given_;                  // number of jobs given
+  Worker* next_idle_ = nullptr;  // guarded by the pool's mutex
+};
+
+// Internal: the idle workers of this process. Those that are idle at the end of
+// the process are joined; one that still runs a body (a task may never return)
+// is left to its fate. Never destroyed, because such a task may come back to
+// it.
+class WorkerPool {
+ public:
+  static WorkerPool& TheOne();
+
+  // Returns an idle worker, if possible one that is on `processor` already, or
+  // a new one. Throws std::system_error if the system refuses to create it.
+  Worker* Acquire(int processor);
+
+  // Makes an acquired worker idle.
+  void Return(Worker* worker);
+
+  // Joins and forgets all idle workers.
+  void JoinIdle();
+
+  // Number of workers that exist, idle or not.
+  int num_workers() const;
+
+ private:
+  Worker* TakeIdle(int processor);
+
+  mutable Mutex mutex_;     // guards all below
+  Worker* idle_ = nullptr;  // the last to become idle first: it still spins
+  int num_workers_ = 0;
+};
+
+}  // namespace macrotask

@@ -1,0 +1,126 @@
+#include "macrotask/lock.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <vector>
+
+#include "macrotask/event.h"
+#include "macrotask/task.h"
+#include "tests/macrotask/support.h"
+
+namespace macrotask {
+namespace {
+
+using LockTest = ByPolicyAndTasks;
+
+TEST_P(LockTest, OneTaskAtATimeHoldsIt) {
+  Lock lock(policy());
+  int total = 0;
+  RunTasks(num_tasks(), [&](int) {
+    for (int round = 0; round < num_rounds(); ++round) {
+      lock.On();
+      ++total;
+      lock.Off();
+    }
+  });
+  EXPECT_EQ(total, num_tasks() * num_rounds());
+  EXPECT_EQ(lock.num_waiting(), 0);
+  EXPECT_FALSE(lock.Test());
+}
+
+TEST_P(LockTest, TasksGetItInTheOrderInWhichTheyAsked) {
+  for (int round = 0; round < 10; ++round) {
+    Lock lock(policy());
+    std::vector<int> order;
+    std::vector<int> expected;
+    std::deque<Task> tasks;
+    lock.On();
+    for (int task = 0; task < num_tasks(); ++task) {
+      expected.push_back(task);
+      tasks.emplace_back([&, task] {
+        lock.On();
+        order.push_back(task);
+        lock.Off();
+      });
+      YieldUntil([&] { return lock.num_waiting() == task + 1; });
+    }
+    lock.Off();
+    for (Task& task : tasks) task.Wait();
+    EXPECT_EQ(order, expected);
+  }
+}
+
+TEST_P(LockTest, TestThatReturnsFalseExcludesOthers) {
+  Lock lock(policy());
+  int total = 0;
+  RunTasks(num_tasks(), [&](int task) {
+    for (int round = 0; round < num_rounds(); ++round) {
+      if (task % 2 == 0) {
+        while (lock.Test()) {
+        }
+      } else {
+        lock.On();
+      }
+      ++total;
+      lock.Off();
+    }
+  });
+  EXPECT_EQ(total, num_tasks() * num_rounds());
+}
+
+INSTANTIATE_BY_POLICY_AND_TASKS(LockTest);
+
+using LockOwnerTest = ByPolicy;
+
+TEST_P(LockOwnerTest, TestSaysWhetherItWasSet) {
+  Lock lock(GetParam());
+  EXPECT_FALSE(lock.Test());
+  EXPECT_TRUE(lock.Test());
+  lock.Off();
+  EXPECT_FALSE(lock.Test());
+}
+
+TEST_P(LockOwnerTest, OffOnAClearLockIsHarmless) {
+  Lock lock(GetParam());
+  lock.Off();
+  EXPECT_FALSE(lock.Test());
+  EXPECT_TRUE(lock.Test());
+}
+
+TEST_P(LockOwnerTest, AnyTaskMayUnlock) {
+  Lock lock(GetParam());
+  int data = 1;
+  lock.On();
+  Task task([&] {
+    data = 2;
+    lock.Off();
+  });
+  lock.On();
+  EXPECT_EQ(data, 2);
+}
+
+// A lock as a signal: each task unlocks what the other one waits for.
+TEST_P(LockOwnerTest, TwoLocksPassTheTurnBetweenTwoTasks) {
+  Lock turns[2] = {Lock(GetParam()), Lock(GetParam())};
+  std::vector<int> order;
+  turns[0].On();
+  turns[1].On();
+  turns[0].Off();
+  RunTasks(2, [&](int task) {
+    for (int round = 0; round < 500; ++round) {
+      turns[task].On();
+      order.push_back(task);
+      turns[1 - task].Off();
+    }
+  });
+  ASSERT_EQ(order.size(), 1000u);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    ASSERT_EQ(order[i], static_cast<int>(i % 2)) << "turn " << i;
+  }
+}
+
+INSTANTIATE_BY_POLICY(LockOwnerTest);
+
+}  // namespace
+}  // namespace macrotask

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <atomic>
+#include <ostream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "macrotask/cache_line.h"
+#include "macrotask/task.h"
+#include "macrotask/wait_policy.h"
+
+namespace macrotask {
+
+inline const WaitPolicy kAllPolicies[] = {
+    WaitPolicy::Block(), WaitPolicy::Spin(), WaitPolicy::Hold()};
+inline constexpr int kTaskCounts[] = {1, 2, 3, 4, 7, 16};
+
+// How a failing test shows its parameter.
+inline void PrintTo(const WaitPolicy& policy, std::ostream* out) {
+  *out << Name(policy.kind);
+}
+
+// A suite for every policy, and one for every policy and number of tasks.
+class ByPolicy : public testing::TestWithParam<WaitPolicy> {};
+
+class ByPolicyAndTasks
+    : public testing::TestWithParam<std::tuple<WaitPolicy, int>> {
+ protected:
+  WaitPolicy policy() const { return std::get<0>(GetParam()); }
+  int num_tasks() const { return std::get<1>(GetParam()); }
+  // As many as are quick even if 16 tasks share one processor.
+  int num_rounds() const {
+    return num_tasks() <= 2 ? 2000 : 1600 / num_tasks();
+  }
+};
+
+inline std::string PolicyName(const testing::TestParamInfo<WaitPolicy>& info) {
+  return std::string(Name(info.param.kind));
+}
+
+inline std::string PolicyAndTasksName(
+    const testing::TestParamInfo<std::tuple<WaitPolicy, int>>& info) {
+  return std::string(Name(std::get<0>(info.param).kind)) +
+         std::to_string(std::get<1>(info.param));
+}
+
+#define INSTANTIATE_BY_POLICY(suite)                                         \
+  INSTANTIATE_TEST_SUITE_P(Policies, suite, testing::ValuesIn(kAllPolicies), \
+                           PolicyName)
+#define INSTANTIATE_BY_POLICY_AND_TASKS(suite)                               \
+  INSTANTIATE_TEST_SUITE_P(Policies, suite,                                  \
+                           testing::Combine(testing::ValuesIn(kAllPolicies), \
+                                            testing::ValuesIn(kTaskCounts)), \
+                           PolicyAndTasksName)
+
+// Lets others run until `condition()`; ends at the time-out of the test if that
+// never comes.
+template <typename Condition>
+void YieldUntil(const Condition& condition) {
+  while (!condition()) sched_yield();
+}
+
+// Runs `num_tasks` tasks through `num_phases` phases, separated by sync(task).
+// Returns how often a task saw another one in a phase that is not its own: one
+// behind if the barrier opened early, one ahead if a task came round too soon.
+// The slots are atomic, so that a broken barrier is a wrong number and no race.
+template <typename Sync>
+int CountPhaseErrors(int num_tasks, int num_phases, const Sync& sync) {
+  std::vector<CacheAligned<std::atomic<int>>> phase_of(
+      static_cast<std::size_t>(num_tasks));
+  std::atomic<int> num_errors = 0;
+  RunTasks(num_tasks, [&](int task) {
+    for (int phase = 1; phase <= num_phases; ++phase) {
+      phase_of[static_cast<std::size_t>(task)]->store(
+          phase, std::memory_order_relaxed);
+      sync(task);
+      for (const auto& other : phase_of) {
+        if (other->load(std::memory_order_relaxed) != phase) ++num_errors;
+      }
+      sync(task);
+    }
+  });
+  return num_errors;
+}
+
+}  // namespace macrotask
