@@ -32,7 +32,8 @@ BlockRun::BlockRun(const System& run_system, BlockMethod run_method,
     const int end = FirstOfPart(m, partition.chain_tasks, part + 1);
     const bool has_common = rma == RmaSharing::kRedundant || part == 0;
     columns.emplace_back(method,
-                         StateLayout(system, first, end - first, has_common));
+                         StateLayout(system, first, end - first, has_common),
+                         num_start_steps);
   }
 }
 
@@ -51,10 +52,11 @@ void BlockRun::SetStart(const double* y0,
       std::copy_n(full + layout.common_offset(), part.common_size(),
                   target->data() + part.common_offset());
     };
-    take(y0, &column.y0());
-    const int k = method.num_values;
-    for (int j = 0; j < k; ++j) {
-      take(f[static_cast<std::size_t>(j)].data(), &column.f(j - k + 1));
+    column.Rewind();
+    take(y0, &column.y(0, 0));
+    for (int offset = 1 - method.num_values; offset <= 0; ++offset) {
+      const int j = offset + method.num_values - 1;
+      take(f[static_cast<std::size_t>(j)].data(), &column.f(0, offset));
     }
   }
   for (auto& failure : failures) *failure = Failure();

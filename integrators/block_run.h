@@ -42,10 +42,6 @@ struct BlockRun {
   static int NumStartSteps(const BlockMethod& method, int num_steps);
 
   double TimeOfGrid(int n) const { return n * step; }
-  // Grid point of point i = 1 ... b of a block.
-  int GridOf(int block, int i) const {
-    return num_start_steps + block * method.block_size + i;
-  }
 
   // Copies y_0 and f_-(k-1) ... f_0, full state vectors, into all columns and
   // forgets the failures of the run before.

@@ -1,18 +1,21 @@
 #include "integrators/block_task.h"
 
-#include <algorithm>
-
 #include "integrators/combine.h"
 
 namespace integrators {
 namespace {
 
-int SetOf(Phase phase) { return static_cast<int>(phase); }
+std::size_t SetOf(Phase phase) { return static_cast<std::size_t>(phase); }
 
 std::vector<double> Scaled(const std::vector<Rational>& weights, double h) {
   std::vector<double> scaled;
   for (const Rational& weight : weights) scaled.push_back(h * weight.value());
   return scaled;
+}
+
+// Points that come before integration task i's.
+int PointsBefore(const BlockRun& run, int i) {
+  return run.method.block_size * i / run.partition.integration_tasks;
 }
 
 }  // namespace
@@ -22,86 +25,101 @@ BlockTask::BlockTask(BlockRun* run, int i, int k, EvaluationFactory* factory)
       column_(run->columns[static_cast<std::size_t>(k)]),
       failure_(run->failure(i, k)),
       rma_column_(run->rma == RmaSharing::kSerial ? 0 : k),
-      first_point_(1 + run->method.block_size * i /
-                           run->partition.integration_tasks),
-      num_points_(1 +
-                  run->method.block_size * (i + 1) /
-                      run->partition.integration_tasks -
-                  first_point_),
+      first_point_(PointsBefore(*run, i) + 1),
+      times_(static_cast<std::size_t>(PointsBefore(*run, i + 1) -
+                                      PointsBefore(*run, i))),
+      codes_(times_.size()),
       evaluation_(factory->Make(column_.layout().first_chain(),
                                 column_.layout().num_chains(), first_point_ - 1,
-                                num_points_)),
+                                num_points())),
       own_coupling_(
-          static_cast<std::size_t>(num_points_ * run->system.coupling_size())),
-      coupling_(own_coupling_.data()),
-      times_(static_cast<std::size_t>(num_points_)),
-      codes_(static_cast<std::size_t>(num_points_)) {
-  const BlockMethod& method = run_.method;
+          static_cast<std::size_t>(num_points() * run->system.coupling_size())),
+      coupling_(own_coupling_.data()) {
   if (run_.rma == RmaSharing::kSerial) {
     coupling_ = run_.shared_coupling.data() +
                 (first_point_ - 1) * run_.system.coupling_size();
   }
-  for (int j = 1 - method.num_values; j <= 0; ++j) {
-    predictor_f_.push_back(column_.f(j).data());
+  for (int local = 0; local < num_points(); ++local) {
+    const auto row = static_cast<std::size_t>(point(local) - 1);
+    predictor_weights_.push_back(Scaled(run_.method.predictor[row], run_.step));
+    corrector_weights_.push_back(Scaled(run_.method.corrector[row], run_.step));
   }
-  for (int j = method.first_corrector_offset(); j <= method.block_size; ++j) {
-    corrector_f_.push_back(j <= 0 ? column_.f(j).data()
-                                  : column_.point(j).f_predicted.data());
+  for (int place = 0; place < column_.num_places(); ++place) {
+    places_.push_back(MakePlace(place));
   }
-  for (int local = 0; local < num_points_; ++local) BindPoint(point(local));
 }
 
-void BlockTask::BindPoint(int i) {
-  const auto row = static_cast<std::size_t>(i - 1);
-  predictor_weights_.push_back(Scaled(run_.method.predictor[row], run_.step));
-  corrector_weights_.push_back(Scaled(run_.method.corrector[row], run_.step));
-
-  PointSlots& slots = column_.point(i);
+BlockTask::Place BlockTask::MakePlace(int at) {
+  const BlockMethod& method = run_.method;
   const StateLayout& layout = column_.layout();
-  double* rates[2] = {slots.f_predicted.data(), slots.f_corrected.data()};
-  for (int c = 0; c < layout.num_chains(); ++c) {
-    const std::size_t offset = layout.chain_offset(c);
-    chain_states_.push_back(slots.y.data() + offset);
-    for (int set : {0, 1}) chain_rates_[set].push_back(rates[set] + offset);
+  Place place;
+  place.y0 = column_.y(at, 0).data();
+  for (int offset = 1 - method.num_values; offset <= 0; ++offset) {
+    place.predictor_f.push_back(column_.f(at, offset).data());
   }
-  const std::size_t offset = layout.common_offset();
-  common_states_.push_back(slots.y.data() + offset);
-  for (int set : {0, 1}) common_rates_[set].push_back(rates[set] + offset);
+  for (int offset = method.first_corrector_offset();
+       offset <= method.block_size; ++offset) {
+    place.corrector_f.push_back(offset <= 0
+                                    ? column_.f(at, offset).data()
+                                    : column_.f_predicted(offset).data());
+  }
+  for (int local = 0; local < num_points(); ++local) {
+    const int i = point(local);
+    double* y = column_.y(at, i).data();
+    double* rates[2] = {column_.f_predicted(i).data(), column_.f(at, i).data()};
+    place.y.push_back(y);
+    for (int c = 0; c < layout.num_chains(); ++c) {
+      const std::size_t offset = layout.chain_offset(c);
+      place.chain_states.push_back(y + offset);
+      for (int set : {0, 1}) {
+        place.chain_rates[set].push_back(rates[set] + offset);
+      }
+    }
+    place.common_states.push_back(y + layout.common_offset());
+    for (int set : {0, 1}) {
+      place.common_rates[set].push_back(rates[set] + layout.common_offset());
+    }
+  }
+  return place;
 }
 
-void BlockTask::Predict(int block) {
-  block_ = block;
-  for (int local = 0; local < num_points_; ++local) {
-    const auto at = static_cast<std::size_t>(local);
-    times_[at] = run_.TimeOfGrid(run_.GridOf(block, point(local)));
-    AlignedDoubles& y = column_.point(point(local)).y;
-    Combine(y.size(), column_.y0().data(), predictor_weights_[at],
-            predictor_f_.data(), y.data());
+// All owned points: y_i = y_0 + sum_j weights[i][j] f[j].
+void BlockTask::Combine(const std::vector<std::vector<double>>& weights,
+                        const std::vector<const double*>& f) {
+  const std::size_t size = column_.y(0, 0).size();
+  for (std::size_t local = 0; local < weights.size(); ++local) {
+    integrators::Combine(size, place_->y0, weights[local], f.data(),
+                         place_->y[local]);
   }
+}
+
+void BlockTask::Predict() {
+  place_ = &places_[static_cast<std::size_t>(column_.place())];
+  for (int local = 0; local < num_points(); ++local) {
+    times_[static_cast<std::size_t>(local)] =
+        run_.TimeOfGrid(column_.newest() + point(local));
+  }
+  Combine(predictor_weights_, place_->predictor_f);
 }
 
 void BlockTask::Correct() {
-  for (int local = 0; local < num_points_; ++local) {
-    const auto at = static_cast<std::size_t>(local);
-    AlignedDoubles& y = column_.point(point(local)).y;
-    Combine(y.size(), column_.y0().data(), corrector_weights_[at],
-            corrector_f_.data(), y.data());
-    if (run_.trajectory != nullptr) {
-      const auto row =
-          static_cast<std::size_t>(run_.GridOf(block_, point(local)));
-      run_.CopyToFull(column_, y.data(),
-                      run_.trajectory + row * run_.layout.size());
-    }
+  Combine(corrector_weights_, place_->corrector_f);
+  if (run_.trajectory == nullptr) return;
+  for (int local = 0; local < num_points(); ++local) {
+    const int n = column_.newest() + point(local);
+    run_.CopyToFull(
+        column_, place_->y[static_cast<std::size_t>(local)],
+        run_.trajectory + static_cast<std::size_t>(n) * run_.layout.size());
   }
 }
 
 void BlockTask::Ocd(Phase phase) {
-  evaluation_->Ocd(SetOf(phase), times_, chain_states_);
+  evaluation_->Ocd(static_cast<int>(phase), times_, place_->chain_states);
 }
 
 void BlockTask::Rma(Phase phase) {
-  evaluation_->Rma(SetOf(phase), common_states_, common_rates_[SetOf(phase)],
-                   coupling_, codes_);
+  evaluation_->Rma(static_cast<int>(phase), place_->common_states,
+                   place_->common_rates[SetOf(phase)], coupling_, codes_);
   for (std::size_t at = 0; at < codes_.size(); ++at) {
     if (codes_[at] == 0 || failure_.code != 0) continue;
     failure_ = {.code = codes_[at], .time = times_[at]};
@@ -109,7 +127,7 @@ void BlockTask::Rma(Phase phase) {
 }
 
 void BlockTask::Ccd(Phase phase) {
-  evaluation_->Ccd(coupling_, chain_rates_[SetOf(phase)]);
+  evaluation_->Ccd(coupling_, place_->chain_rates[SetOf(phase)]);
 }
 
 bool BlockTask::Failed() const {

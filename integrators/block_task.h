@@ -21,9 +21,9 @@ class BlockTask {
 
   int num_blocks() const { return run_.num_blocks; }
 
-  // CS, compute state: the predicted states of the owned points of block
-  // `block`. Requires the shift of the block before.
-  void Predict(int block);
+  // CS, compute state: the predicted states of the owned points of the next
+  // block. Requires the shift of the block before.
+  void Predict();
 
   // CS: the corrected states. Requires the predicted derivatives of all points
   // of the column.
@@ -40,7 +40,7 @@ class BlockTask {
   void Ccd(Phase phase);
 
   // Shifts the blocks of the column. Requires the corrected derivatives of all
-  // its points, and that nobody reads the column meanwhile.
+  // its points, and that no other task computes with the column meanwhile.
   void ShiftBlocks() { column_.ShiftBlocks(); }
 
   // Whether any point of the last evaluations failed. All tasks of a run get
@@ -53,29 +53,37 @@ class BlockTask {
   std::exception_ptr TakeError() { return evaluation_->TakeError(); }
 
  private:
+  // Where everything is when the block is at one place of the column's ring.
+  struct Place {
+    const double* y0;
+    std::vector<const double*> predictor_f, corrector_f;  // (k)
+    std::vector<double*> y;                               // (points)
+    // By pair and by point; derivatives also by phase.
+    std::vector<const double*> chain_states, common_states;
+    std::vector<double*> chain_rates[2], common_rates[2];
+  };
+
+  int num_points() const { return static_cast<int>(times_.size()); }
   int point(int local) const { return first_point_ + local; }  // 1 ... b
-  void BindPoint(int i);
+  Place MakePlace(int place);
+  void Combine(const std::vector<std::vector<double>>& weights,
+               const std::vector<const double*>& f);
 
   BlockRun& run_;
   Column& column_;
   Failure& failure_;      // this task's
   const int rma_column_;  // chain task whose RMA this task's CCD reads
   const int first_point_;
-  const int num_points_;
-  int block_ = 0;
-
-  std::unique_ptr<Evaluation> evaluation_;
-  AlignedDoubles own_coupling_;
-  double* coupling_;           // (points x coupling size)
   std::vector<double> times_;  // (points)  s
   std::vector<int> codes_;     // (points)
+  std::unique_ptr<Evaluation> evaluation_;
 
-  // h times the weights, and what they multiply, by point.
-  std::vector<std::vector<double>> predictor_weights_, corrector_weights_;
-  std::vector<const double*> predictor_f_, corrector_f_;
-  // Views of the slots: states by pair and by point, derivatives by phase.
-  std::vector<const double*> chain_states_, common_states_;
-  std::vector<double*> chain_rates_[2], common_rates_[2];
+  AlignedDoubles own_coupling_;
+  double* coupling_;  // (points x coupling size)
+  std::vector<std::vector<double>> predictor_weights_;  // (points x k)  times h
+  std::vector<std::vector<double>> corrector_weights_;  // (points x k)  times h
+  std::vector<Place> places_;
+  const Place* place_ = nullptr;  // of the current block
 };
 
 }  // namespace integrators

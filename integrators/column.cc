@@ -1,34 +1,34 @@
 #include "integrators/column.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace integrators {
-namespace {
 
-void Copy(const AlignedDoubles& from, AlignedDoubles* to) {
-  std::copy_n(from.data(), from.size(), to->data());
-}
-
-}  // namespace
-
-Column::Column(const BlockMethod& method, StateLayout layout)
-    : layout_(std::move(layout)), y0_(layout_.size()) {
-  for (int j = 0; j < method.num_values; ++j) f_.emplace_back(layout_.size());
-  for (int i = 0; i < method.block_size; ++i) {
-    points_.emplace_back(layout_.size());
+Column::Column(const BlockMethod& method, StateLayout layout, int newest)
+    : layout_(std::move(layout)),
+      start_(newest),
+      block_size_(method.block_size),
+      // k derivatives that are read and b that are written, in whole blocks.
+      num_places_((method.num_values - 1) / method.block_size + 2),
+      newest_{newest} {
+  for (int slot = 0; slot < num_places_ * block_size_; ++slot) {
+    y_.emplace_back(layout_.size());
+    f_.emplace_back(layout_.size());
+  }
+  for (int i = 1; i <= block_size_; ++i) {
+    f_predicted_.emplace_back(layout_.size());
   }
 }
 
-void Column::ShiftBlocks() {
-  const int b = static_cast<int>(points_.size());
-  const int k = static_cast<int>(f_.size());
-  // Oldest first: what is read lies b places further on, not yet written.
-  for (int offset = 1 - k; offset <= 0; ++offset) {
-    const int from = offset + b;
-    Copy(from <= 0 ? f(from) : point(from).f_corrected, &f(offset));
-  }
-  Copy(point(b).y, &y0_);
+int Column::place() const {
+  return (*newest_ - start_) / block_size_ % num_places_;
+}
+
+// Point i of a block is at slot place b + i - 1.
+std::size_t Column::Slot(int place, int offset) const {
+  const int slots = num_places_ * block_size_;
+  const int slot = place * block_size_ + offset - 1;
+  return static_cast<std::size_t>((slot + slots) % slots);
 }
 
 }  // namespace integrators

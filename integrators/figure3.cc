@@ -25,7 +25,7 @@ class Figure3 final : public TaskStructure {
 
   void Run(int /*i*/, int /*k*/, BlockTask& task) override {
     for (int block = 0; block < task.num_blocks(); ++block) {
-      task.Predict(block);  // CS
+      task.Predict();  // CS
       Evaluate(Phase::kPredicted, task);
 
       task.Correct();  // CS

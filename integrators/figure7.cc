@@ -25,7 +25,7 @@ class Figure7 final : public TaskStructure {
 
   void Run(int i, int /*k*/, BlockTask& task) override {
     for (int block = 0; block < task.num_blocks(); ++block) {
-      task.Predict(block);  // PE_i
+      task.Predict();  // PE_i
       Evaluate(Phase::kPredicted, task);
       all_points_.Sync();  // BARSYNC(p^)
       // All tasks have come from their wait for the shift before.

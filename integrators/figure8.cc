@@ -49,7 +49,7 @@ class Figure8 final : public TaskStructure {
     macrotask::Event& shifted = blocks_shifted_[static_cast<std::size_t>(k)];
 
     for (int block = 0; block < task.num_blocks(); ++block) {
-      task.Predict(block);          // CS (predict)
+      task.Predict();               // CS (predict)
       task.Ocd(Phase::kPredicted);  // OCD
       chains.Sync();                // BARSYNC(m^)
       task.Rma(Phase::kPredicted);  // RMA

@@ -120,7 +120,8 @@ IntegrationResult Integration::RunTasks(StartFunction start) {
   }
   result.state.resize(run_.layout.size());
   for (Column& column : run_.columns) {
-    run_.CopyToFull(column, column.y0().data(), result.state.data());
+    run_.CopyToFull(column, column.y(column.place(), 0).data(),
+                    result.state.data());
   }
   result.evaluations += 2LL * run_.num_blocks * run_.method.block_size;
   return result;

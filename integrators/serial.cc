@@ -9,7 +9,7 @@ class Serial final : public TaskStructure {
  public:
   void Run(int /*i*/, int /*k*/, BlockTask& task) override {
     for (int block = 0; block < task.num_blocks(); ++block) {
-      task.Predict(block);
+      task.Predict();
       task.Ocd(Phase::kPredicted);
       task.Rma(Phase::kPredicted);
       task.Ccd(Phase::kPredicted);
