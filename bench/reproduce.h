@@ -13,7 +13,7 @@ namespace bench {
 
 struct ReproduceOptions {
   int repetitions = 200;
-  macrotask::WaitPolicy wait;
+  macrotask::WaitPolicy wait = {};
 };
 
 // The error of the lift with one number of steps, without a clock.
@@ -63,7 +63,7 @@ struct LaneTables {
 struct Reproduction {
   Machine machine;
   std::string placement;
-  macrotask::WaitPolicy wait;
+  macrotask::WaitPolicy wait = {};
   std::vector<MethodSweep> sweeps;  // B4PC5, B2PC5, B1PC5
   std::vector<LaneTables> lanes;    // four, one
   std::vector<Cost> costs;

@@ -141,6 +141,7 @@ std::string Simulate(const SimulateOptions& options) {
   dynamics::Lift input =
       dynamics::PumaLift(options.num_chains, options.rotor_inertia);
   const int steps = integrators::CountSteps(input.duration, options.step);
+  integrators::CheckNumSteps(method, steps);
   const LiftCase lift(std::move(input), steps);
   const dynamics::ClosedChainSystem system(lift.lift().model, lift.torques(),
                                            options.lanes);

@@ -1,10 +1,10 @@
 #include "dynamics/kinematics.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "Eigen/QR"
 #include "dynamics/ldlt.h"
 
 namespace dynamics {

@@ -1,9 +1,8 @@
 #include "dynamics/model.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
-
-#include "Eigen/Eigenvalues"
 
 namespace dynamics {
 namespace {

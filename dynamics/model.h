@@ -1,10 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
-
-#include "Eigen/Core"
-#include "Eigen/Geometry"
 
 // Constant models, all double: what a robot, a grip and a load are. States,
 // work space and results live elsewhere, so that many tasks share one model.

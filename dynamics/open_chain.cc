@@ -102,7 +102,9 @@ template <typename S>
     for (int b = 1; b < 6; ++b) sum += open->Lambda(a, b) * open->a_open[b];
     open->Lambda_a_open[a] = sum;
   }
-  open->margin = Min(margin_Lambda, margin_H);
+  // Fewer than six joints cannot move the tip in all directions, whatever
+  // rounding makes of the last pivots.
+  open->margin = n < 6 ? S(-1.0) : Min(margin_Lambda, margin_H);
 }
 
 #define DYNAMICS_INSTANTIATE(S)                                             \

@@ -1,8 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
-
-#include "Eigen/Core"
 
 namespace dynamics {
 namespace internal {

@@ -1,9 +1,9 @@
 #include "dynamics/plan.h"
 
+#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
 
-#include "Eigen/QR"
 #include "dynamics/chain_terms.h"
 #include "dynamics/closed_chain_system.h"
 #include "dynamics/kinematics.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Eigen/Core"
+#include <Eigen/Core>
 
 // Spatial vectors and matrices: angular part first. Every spatial quantity of
 // a chain is taken about one point, the centre of mass P of the reference

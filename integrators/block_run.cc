@@ -1,6 +1,7 @@
 #include "integrators/block_run.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace integrators {
@@ -74,14 +75,13 @@ void BlockRun::CopyToFull(const Column& column, const double* part,
 }
 
 Failure BlockRun::FirstFailure() const {
+  const auto order = [](const Failure& failure) {
+    return std::tuple(failure.phase, failure.time, failure.code);
+  };
   Failure first;
   for (const auto& failure : failures) {
-    const Failure& other = *failure;
-    if (other.code == 0) continue;
-    if (first.code == 0 || other.time < first.time ||
-        (other.time == first.time && other.code < first.code)) {
-      first = other;
-    }
+    if (failure->code == 0) continue;
+    if (first.code == 0 || order(*failure) < order(first)) first = *failure;
   }
   return first;
 }

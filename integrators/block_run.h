@@ -25,6 +25,7 @@ enum class Phase { kPredicted = 0, kCorrected = 1 };
 // What went wrong at one point: a code of the system's, 0 for nothing.
 struct Failure {
   int code = 0;
+  Phase phase = Phase::kPredicted;
   double time = 0;  // s
 };
 
@@ -49,7 +50,9 @@ struct BlockRun {
   // Copies a vector of a column to its places in a full state vector; of the
   // copies of the common state, the first column's counts.
   void CopyToFull(const Column& column, const double* part, double* full) const;
-  // The earliest failure; of several at one time, the lowest code.
+  // The first failure of the block in which the run ended: those of the
+  // prediction before those of the correction, which may only follow from them;
+  // then by time, then by code.
   Failure FirstFailure() const;
 
   const System& system;

@@ -122,7 +122,7 @@ void BlockTask::Rma(Phase phase) {
                    place_->common_rates[SetOf(phase)], coupling_, codes_);
   for (std::size_t at = 0; at < codes_.size(); ++at) {
     if (codes_[at] == 0 || failure_.code != 0) continue;
-    failure_ = {.code = codes_[at], .time = times_[at]};
+    failure_ = {.code = codes_[at], .phase = phase, .time = times_[at]};
   }
 }
 

@@ -27,10 +27,7 @@ const IntegrationOptions& Checked(const System& system,
             std::to_string(options.method.block_size) +
             ", the points of a block of " + options.method.name());
   check(options.step > 0, "the step must be positive");
-  const int needed = options.method.num_values - 1 + options.method.block_size;
-  check(options.num_steps >= needed,
-        std::to_string(options.num_steps) + " steps: " + options.method.name() +
-            " needs at least " + std::to_string(needed));
+  CheckNumSteps(options.method, options.num_steps);
   return options;
 }
 
@@ -50,6 +47,14 @@ int CountSteps(double duration, double step) {
                                 std::to_string(duration) + " s");
   }
   return static_cast<int>(steps);
+}
+
+void CheckNumSteps(const BlockMethod& method, int num_steps) {
+  const int needed = method.num_values - 1 + method.block_size;
+  if (num_steps >= needed) return;
+  throw std::invalid_argument(std::to_string(num_steps) +
+                              " steps: " + method.name() + " needs at least " +
+                              std::to_string(needed));
 }
 
 Integration::Integration(std::unique_ptr<System> system,

@@ -19,8 +19,8 @@ struct IntegrationOptions {
   double step = 0;    // h, s
   int num_steps = 0;  // the integration goes from 0 to num_steps h
   Figure figure = Figure::kSerial;
-  Partition partition;
-  macrotask::WaitPolicy wait;
+  Partition partition = {};
+  macrotask::WaitPolicy wait = {};
   bool record = false;  // keep the states at all grid points
 };
 
@@ -28,6 +28,10 @@ struct IntegrationOptions {
 // std::invalid_argument, one sentence, if the step is not positive or does not
 // divide the duration (to 1e-9 of a step).
 int CountSteps(double duration, double step);
+
+// Throws std::invalid_argument, one sentence, if the method cannot start in so
+// few steps.
+void CheckNumSteps(const BlockMethod& method, int num_steps);
 
 struct IntegrationResult {
   std::vector<double> state;     // full state at the end: chains, then common

@@ -1,0 +1,161 @@
+// The program as its users see it: what it prints, where, and its exit code.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code;
+  std::string out, error;
+};
+
+std::string ReadAll(const fs::path& path) {
+  std::ifstream file(path);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+class Cli : public testing::Test {
+ protected:
+  Cli()
+      : folder_(fs::path(testing::TempDir()) /
+                ("cli_test" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Cli() override { fs::remove_all(folder_); }
+
+  Outcome Run(const std::string& arguments, const std::string& before = "") {
+    const fs::path out = folder_ / "out", error = folder_ / "error";
+    const std::string command = before + PROGRAM " " + arguments + " >" +
+                                out.string() + " 2>" + error.string() +
+                                " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(out),
+            ReadAll(error)};
+  }
+
+  // One sentence on the standard error, nothing else, exit code 2.
+  void ExpectRejected(const std::string& arguments,
+                      const std::string& sentence) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(outcome.error, "macrotask: " + sentence + "\n") << arguments;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
+  ExpectRejected("simulate --step 0.03",
+                 "the step of 0.030000 s does not divide the duration of "
+                 "1.000000 s");
+  ExpectRejected("simulate --chain-tasks 5",
+                 "5 chain tasks: expected 1 to 4, the number of chains");
+  ExpectRejected("simulate --method B2PC5 --integration-tasks 3",
+                 "3 integration tasks: expected 1 to 2, the points of a block "
+                 "of B2PC5");
+  ExpectRejected("simulate --method RK4",
+                 "unknown method 'RK4': expected B1PC5, B2PC5, B4PC5, or "
+                 "another B<b>PC<k> with k > b");
+  ExpectRejected("simulate --figure serial --chain-tasks 2",
+                 "serial has one task: got 2 chain tasks and 1 integration "
+                 "tasks");
+  ExpectRejected("simulate --chains 0", "0 chains: expected at least one");
+  ExpectRejected("simulate --step 0.25", "4 steps: B1PC5 needs at least 5");
+  ExpectRejected("simulate --output /none/x.csv",
+                 "cannot write '/none/x.csv': No such file or directory");
+}
+
+TEST_F(Cli, BadOptionsNameTheOption) {
+  for (const char* arguments :
+       {"", "simulat", "simulate --stepp 1", "simulate --wait never",
+        "simulate --lanes 3", "simulate --step x", "reproduce --hold-time -1",
+        "reproduce --repetitions 0"}) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1)
+        << outcome.error;
+  }
+}
+
+TEST_F(Cli, RejectedRunWritesNoFile) {
+  const fs::path path = folder_ / "trajectory.csv";
+  Run("simulate --step 0.03 --output " + path.string());
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);
+}
+
+TEST_F(Cli, TrajectoryHasARowForEveryGridPoint) {
+  const fs::path path = folder_ / "trajectory.csv";
+  const Outcome outcome = Run("simulate --step 0.02 --output " + path.string());
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("real-time factor"), std::string::npos);
+  EXPECT_NE(outcome.out.find("drift of grips"), std::string::npos);
+  const std::string csv = ReadAll(path);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 52);
+  EXPECT_EQ(csv.find("nan"), std::string::npos);
+  // t, 13 of the member, and 6 x (q, qd, tau, f) of four chains.
+  const std::string header = csv.substr(0, csv.find('\n'));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), 13 + 4 * 24);
+}
+
+TEST_F(Cli, TrajectoryGoesToAPipe) {
+  const Outcome outcome = Run("simulate --step 0.02 --output -");
+  EXPECT_EQ(outcome.out.substr(0, 2), "t,");
+  EXPECT_EQ(outcome.error, "");
+}
+
+TEST_F(Cli, AllFiguresAndPoliciesRun) {
+  for (const char* arguments :
+       {"--figure serial", "--figure figure2 --chain-tasks 2",
+        "--figure figure3 --chain-tasks 4 --wait block",
+        "--figure figure7 --method B4PC5 --integration-tasks 2 --wait spin",
+        "--method B4PC6 --chain-tasks 2 --integration-tasks 2 --lanes 1",
+        "--chains 2 --start plan", "--rotor-inertia --hold-time 0"}) {
+    const Outcome outcome =
+        Run("simulate --step 0.02 " + std::string(arguments));
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.error;
+    EXPECT_EQ(outcome.error, "") << arguments;
+  }
+}
+
+TEST_F(Cli, HelpAndVersionExitWithZero) {
+  for (const char* arguments :
+       {"--help", "--version", "reproduce --help", "simulate --help"}) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments;
+    EXPECT_NE(outcome.out, "") << arguments;
+  }
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define UNDER_SANITIZER 1
+#else
+#define UNDER_SANITIZER 0
+#endif
+
+// As root, no limit on the number of threads holds; one on the memory that
+// their stacks take does.
+TEST_F(Cli, MoreTasksThanTheSystemAllowsIsOneSentence) {
+  if (UNDER_SANITIZER) GTEST_SKIP() << "sanitizers need the memory";
+  const Outcome outcome =
+      Run("simulate --chains 200 --chain-tasks 200 --step 0.1",
+          "ulimit -v 400000; ");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.error.find("macrotask: cannot start 200 tasks"), 0u)
+      << outcome.error;
+}
+
+}  // namespace
