@@ -94,6 +94,7 @@ class EvaluatorImpl final : public Evaluator::Impl {
 
   void Ocd(int set, std::span<const double> times,
            std::span<const double* const> chain_states) override {
+    for (const PairGroup<S>& group : groups_) ClaimSlots(set, group);
     for (PairGroup<S>& group : groups_) {
       Load(times, chain_states, &group);
       CalcOpenChain(group.constants, group.q.data(), group.qd.data(),
@@ -222,12 +223,25 @@ class EvaluatorImpl final : public Evaluator::Impl {
     }
   }
 
+  TipExchange::Slot& SlotOf(int set, const Pair& pair) {
+    return exchange_.slot(set, first_point_ + pair.point, pair.k);
+  }
+
+  // Writes to every line of the slots that Publish will fill, so that the
+  // processor asks for them as its own while it computes. Their readers are
+  // other tasks; Publish would wait for one line after the other.
+  void ClaimSlots(int set, const PairGroup<S>& group) {
+    for (const Pair& pair : group.pairs) {
+      TipExchange::Slot& slot = SlotOf(set, pair);
+      for (int i = 0; i < kTriangle6; i += 8) slot.tip.Lambda[i] = 0;
+      slot.margin = 0;
+    }
+  }
+
   void Publish(int set, const PairGroup<S>& group) {
     const OpenChain<S>& open = group.open;
     for (int lane = 0; lane < static_cast<int>(group.pairs.size()); ++lane) {
-      const Pair& pair = group.pairs[lane];
-      TipExchange::Slot& slot =
-          exchange_.slot(set, first_point_ + pair.point, pair.k);
+      TipExchange::Slot& slot = SlotOf(set, group.pairs[lane]);
       int element = 0;
       for (int a = 0; a < 6; ++a) {
         for (int b = 0; b <= a; ++b) {

@@ -13,6 +13,15 @@ std::vector<double> Scaled(const std::vector<Rational>& weights, double h) {
   return scaled;
 }
 
+// Writes to every line of `values`, so that the processor asks for them as its
+// own. CCD will fill them a microsecond later; its first store to a line that
+// others have read would wait for it, one line after the other.
+void ClaimLines(double* values, std::size_t size) {
+  for (std::size_t e = 0; e < size; e += AlignedDoubles::kDoublesPerLine) {
+    values[e] = 0;
+  }
+}
+
 // Points that come before integration task i's.
 int PointsBefore(const BlockRun& run, int i) {
   return run.method.block_size * i / run.partition.integration_tasks;
@@ -68,6 +77,7 @@ BlockTask::Place BlockTask::MakePlace(int at) {
     double* y = column_.y(at, i).data();
     double* rates[2] = {column_.f_predicted(i).data(), column_.f(at, i).data()};
     place.y.push_back(y);
+    for (int set : {0, 1}) place.f[set].push_back(rates[set]);
     for (int c = 0; c < layout.num_chains(); ++c) {
       const std::size_t offset = layout.chain_offset(c);
       place.chain_states.push_back(y + offset);
@@ -114,6 +124,8 @@ void BlockTask::Correct() {
 }
 
 void BlockTask::Ocd(Phase phase) {
+  const std::size_t size = column_.y(0, 0).size();
+  for (double* f : place_->f[SetOf(phase)]) ClaimLines(f, size);
   evaluation_->Ocd(static_cast<int>(phase), times_, place_->chain_states);
 }
 

@@ -57,7 +57,7 @@ class BlockTask {
   struct Place {
     const double* y0;
     std::vector<const double*> predictor_f, corrector_f;  // (k)
-    std::vector<double*> y;                               // (points)
+    std::vector<double*> y, f[2];  // (points)  derivatives by phase
     // By pair and by point; derivatives also by phase.
     std::vector<const double*> chain_states, common_states;
     std::vector<double*> chain_rates[2], common_rates[2];

@@ -41,7 +41,7 @@ TEST(SpatialVector, ForceCrossIsMinusTheTransposeOfMotionCross) {
   EXPECT_NEAR(CrossForce(v, f).Dot(m), -f.Dot(CrossMotion(v, m)), kDirect);
 }
 
-// Both [Featherstone08 (2.33)] as a matrix: [w x, 0; v x, w x].
+// v x = [omega x, 0; v x, omega x].
 TEST(SpatialVector, MotionCrossIsItsMatrix) {
   support::Random random(3);
   const auto v = RandomSpatial(&random);
