@@ -1,6 +1,7 @@
 #include "dynamics/closed_chain_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -120,7 +121,9 @@ class EvaluatorImpl final : public Evaluator::Impl {
         for (int i = 0; i < 6; ++i) a_r[6 * point + i] = Lane(a[i], lane);
         StoreMember(rate, lane, common_derivatives[point]);
         const bool sane = Lane(margin, lane) > 0;
-        if (failures[point] == 0 && !sane) failures[point] = -1;
+        if (failures[point] == 0 && !sane) {
+          failures[point] = -1 - FirstNotFinite(set, point);
+        }
       }
     }
   }
@@ -280,6 +283,19 @@ class EvaluatorImpl final : public Evaluator::Impl {
     }
   }
 
+  // The first chain whose x''_open is not finite at the point; their number if
+  // there is none.
+  int FirstNotFinite(int set, int point) {
+    int k = 0;
+    for (; k < exchange_.num_chains(); ++k) {
+      const auto& values =
+          exchange_.slot(set, first_point_ + point, k).tip.Lambda_a_open;
+      const auto finite = [](double x) { return std::isfinite(x); };
+      if (!std::all_of(values.begin(), values.end(), finite)) break;
+    }
+    return k;
+  }
+
   static void Store(const PairGroup<S>& group,
                     std::span<double* const> chain_derivatives) {
     const int n = group.num_joints;
@@ -344,6 +360,10 @@ Evaluator ClosedChainSystem::MakeEvaluator(int first_chain, int num_chains,
 }
 
 std::string ClosedChainSystem::DescribeFailure(int code) const {
+  if (code < 0 && -code <= num_chains()) {
+    return "the acceleration of chain " + std::to_string(-code - 1) +
+           " is not finite: its torques, or its state, are not";
+  }
   if (code < 0) return "the acceleration of the reference member is not finite";
   const int n = model_.chains[code - 1].arm.num_joints();
   const std::string chain = "chain " + std::to_string(code - 1);

@@ -128,7 +128,8 @@ class Evaluator {
   // RMA at all points: reads every chain's slots, in order of the chains, and
   // `common_states` by point; fills `a_r` (6 a point) and the derivatives of
   // the common states. `failures` receives a code a point: 0; k + 1 if chain k
-  // is the first singular one; -1 if a_r is not finite.
+  // is the first singular one; -(k + 1) if chain k is the first whose x''_open
+  // is not finite; -(m + 1) if only a_r is not.
   void Rma(int set, std::span<const double* const> common_states,
            std::span<double* const> common_derivatives, double* a_r,
            std::span<int> failures) {

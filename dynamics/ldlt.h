@@ -12,9 +12,9 @@ namespace dynamics {
 
 // A pivot below this part of its diagonal element means that the matrix is
 // singular for our purposes. Along the lift of the PUMAs the smallest ratio is
-// 8e-4; with the wrist stretched (q5 = 0) it is rounding error, below 1e-10 in
-// 99 of 100 random postures, half of the time negative.
-inline constexpr double kSingularPivot = 1e-10;
+// 8e-4; 1e-5 rad from a stretched wrist (q5 = 0) it is 1e-7; there it is
+// rounding error, below 3e-10 in 99 of 100 random postures.
+inline constexpr double kSingularPivot = 1e-8;
 
 // Overwrites the strict lower triangle of the n x n matrix A with that of L and
 // fills d_inv[0..n) with the reciprocals of D. Returns, lane by lane, a number

@@ -21,13 +21,29 @@ Eigen::Isometry3d AfterJoint(const DhRow& row) {
   throw std::invalid_argument(where + ": " + what);
 }
 
-void CheckInertia(const std::string& where, double mass,
-                  const Eigen::Matrix3d& inertia) {
+void CheckMass(const std::string& where, double mass,
+               const Eigen::Matrix3d& inertia) {
   if (!std::isfinite(mass) || mass < 0) {
     Reject(where, "the mass must be a finite number of kg, not below zero");
   }
-  if (!inertia.allFinite() || !inertia.isApprox(inertia.transpose())) {
-    Reject(where, "the inertia must be a finite, symmetric matrix");
+  // Published inertias have a zero here and there; rounding may make it less.
+  const bool symmetric =
+      inertia.allFinite() && inertia.isApprox(inertia.transpose());
+  if (!symmetric ||
+      inertia.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() <
+          -1e-12 * inertia.norm()) {
+    Reject(where,
+           "the inertia must be a finite, symmetric matrix, not below zero");
+  }
+}
+
+void CheckLink(const std::string& where, const Link& link) {
+  CheckMass(where, link.mass, link.inertia);
+  if (!link.com.allFinite() || !link.parent_to_joint.matrix().allFinite()) {
+    Reject(where, "the centre of mass and the joint frame must be finite");
+  }
+  if (!std::isfinite(link.rotor_inertia) || link.rotor_inertia < 0) {
+    Reject(where, "the rotor inertia must be finite, not below zero");
   }
 }
 
@@ -61,11 +77,17 @@ void CheckModel(const SystemModel& model) {
     const std::string chain = "chain " + std::to_string(k);
     if (arm.links.empty()) Reject(chain, "expected at least one joint");
     for (int i = 0; i < arm.num_joints(); ++i) {
-      CheckInertia(chain + ", link " + std::to_string(i + 1), arm.links[i].mass,
-                   arm.links[i].inertia);
+      CheckLink(chain + ", link " + std::to_string(i + 1), arm.links[i]);
+    }
+    for (const auto& pose :
+         {model.chains[k].base, model.chains[k].grip, arm.tip}) {
+      if (!pose.matrix().allFinite()) {
+        Reject(chain, "the poses of base, tip and grip must be finite");
+      }
     }
   }
-  CheckInertia("the reference member", model.member.mass, model.member.inertia);
+  if (!model.gravity.allFinite()) Reject("gravity", "must be finite");
+  CheckMass("the reference member", model.member.mass, model.member.inertia);
   if (!(model.member.mass > 0) ||
       !(model.member.inertia.selfadjointView<Eigen::Lower>()
             .eigenvalues()

@@ -74,8 +74,8 @@ struct SystemModel {
 
 // Throws std::invalid_argument, one sentence that names the chain and the
 // figure, unless there is at least one chain, every chain has at least one
-// joint, and masses and inertias are finite, not negative and symmetric, those
-// of the reference member positive.
+// joint, poses are finite, and masses and inertias are finite, not negative and
+// symmetric, those of the reference member positive.
 void CheckModel(const SystemModel& model);
 
 }  // namespace dynamics

@@ -38,8 +38,8 @@ struct OpenChainWork {
 //   x''_open  = J' q' + J q''_open
 //   Lambda^-1 = J H^-1 J^T
 //
-// q, qd, tau: N values each. Where the chain is singular or the input is NaN,
-// `margin` says so, in its own lane only. No allocation; any number of tasks
+// q, qd, tau: N values each. Where the chain is singular or q is NaN, `margin`
+// says so, in its own lane only; NaN in qd or tau reaches x''_open. No allocation; any number of tasks
 // may call it at once, each with its own work space.
 // Cost: bench row "OCD".
 template <typename S>

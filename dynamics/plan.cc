@@ -36,7 +36,7 @@ class ChainPlanner {
                                   " joint positions to start from, got " +
                                   std::to_string(q_guess.size()));
     }
-    joints_ = ChooseCarryingJoints(chain_, q_, name_);
+    joints_ = ChooseCarryingJoints(chain_, q_, name_ + " at t = 0.000000 s");
   }
 
   // Moves on to the time t: fills state, rate and torques for the motion while

@@ -62,14 +62,16 @@ void TorqueTable::Calc(int k, double t, const double* /*q*/,
   const Eigen::MatrixXd& torques = profile_[k];
   const double place = t / step_;
   const double nearest = std::nearbyint(place);
-  if (!(nearest >= 0 && nearest <= static_cast<double>(times_ - 1))) {
+  // Times of the grid are n * step up to rounding, which is far below this.
+  constexpr double kRounding = 1e-9;
+  const double end = static_cast<double>(times_ - 1);
+  if (!(place > -kRounding && place < end + kRounding)) {
     throw std::out_of_range(
         "the torque table ends at " + std::to_string(duration()) +
         " s: no torques at t = " + std::to_string(t) + " s");
   }
   const auto n = static_cast<Eigen::Index>(nearest);
-  // Times of the grid are n * step up to rounding, which is far below this.
-  if (std::abs(place - nearest) < 1e-9) {
+  if (std::abs(place - nearest) < kRounding) {
     const double* column = torques.data() + n * torques.rows();
     std::copy(column, column + torques.rows(), tau);
     return;

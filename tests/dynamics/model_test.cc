@@ -66,8 +66,31 @@ TEST(CheckModel, NamesTheLinkWhoseInertiaIsBad) {
                 model->chains[0].arm.links[5].inertia(0, 1) = element;
               }),
               "chain 0, link 6: the inertia must be a finite, symmetric "
-              "matrix");
+              "matrix, not below zero");
   }
+  EXPECT_EQ(Complaint([](SystemModel* model) {
+              model->chains[0].arm.links[5].inertia =
+                  -Eigen::Matrix3d::Identity();
+            }),
+            "chain 0, link 6: the inertia must be a finite, symmetric matrix, "
+            "not below zero");
+}
+
+TEST(CheckModel, NamesTheLinkOrChainWhoseOtherFiguresAreBad) {
+  EXPECT_EQ(Complaint([](SystemModel* model) {
+              model->chains[1].arm.links[0].com.x() = kNan;
+            }),
+            "chain 1, link 1: the centre of mass and the joint frame must be "
+            "finite");
+  EXPECT_EQ(Complaint([](SystemModel* model) {
+              model->chains[1].arm.links[0].rotor_inertia = -1;
+            }),
+            "chain 1, link 1: the rotor inertia must be finite, not below "
+            "zero");
+  EXPECT_EQ(Complaint([](SystemModel* model) {
+              model->chains[1].base.translation().y() = kInfinity;
+            }),
+            "chain 1: the poses of base, tip and grip must be finite");
 }
 
 TEST(CheckModel, AsksForAReferenceMemberWithMassAndInertia) {
@@ -81,7 +104,8 @@ TEST(CheckModel, AsksForAReferenceMemberWithMassAndInertia) {
   EXPECT_EQ(Complaint([](SystemModel* model) {
               model->member.inertia = Eigen::Vector3d(1, 1, -1).asDiagonal();
             }),
-            expected);
+            "the reference member: the inertia must be a finite, symmetric "
+            "matrix, not below zero");
   EXPECT_TRUE(
       Contains(Complaint([](SystemModel* model) { model->member.mass = kNan; }),
                "the reference member: the mass"));

@@ -201,11 +201,11 @@ TEST(MakePlan, NamesTheChainAndTheTimeOfAnUnreachableGrip) {
   EXPECT_TRUE(Contains(complaint, " s cannot reach its grip")) << complaint;
 }
 
-TEST(MakePlan, NamesTheChainThatStartsAtASingularity) {
+TEST(MakePlan, NamesTheChainAndTheTimeThatStartsAtASingularity) {
   std::vector<Eigen::VectorXd> q_guess = PumaLift().q_guess;
   q_guess[2][4] = 0;
   EXPECT_TRUE(Contains(Complaint(PumaLift().motion, q_guess),
-                       "chain 2 is at a singularity"));
+                       "chain 2 at t = 0.000000 s is at a singularity"));
 }
 
 TEST(MakePlan, RejectsAStartOfAnotherSize) {
