@@ -1,5 +1,6 @@
 #include "bench/costs.h"
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -97,6 +98,30 @@ std::function<void(int)> Repeat(Function function) {
   };
 }
 
+// Two tasks evaluate at once, each for itself: what the two processors give
+// when nobody waits for anybody, hence the most that two tasks can gain.
+Measured TwoAtOnce(const LiftCase& lift, dynamics::Lanes lanes,
+                   const std::string& with) {
+  using Points = std::array<std::unique_ptr<OnePoint>, 2>;
+  const auto points = std::make_shared<Points>();
+  macrotask::RunTasks(2, [&](int task) {
+    (*points)[static_cast<std::size_t>(task)] =
+        std::make_unique<OnePoint>(lift, lanes);
+  });
+  // So many that starting the tasks does not count.
+  constexpr int kCalls = 2000;
+  return {{"evaluation, two at once", with, {}}, kCalls, [points](int calls) {
+            macrotask::RunTasks(2, [&](int task) {
+              OnePoint& point = *(*points)[static_cast<std::size_t>(task)];
+              for (int call = 0; call < calls; ++call) {
+                point.Ocd();
+                point.Rma();
+                point.Ccd();
+              }
+            });
+          }};
+}
+
 }  // namespace
 
 std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions) {
@@ -104,7 +129,7 @@ std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions) {
   for (const auto lanes : {dynamics::Lanes::kFour, dynamics::Lanes::kOne}) {
     const auto point = std::make_shared<OnePoint>(lift, lanes);
     const std::string with = std::to_string(static_cast<int>(lanes)) + " lanes";
-    constexpr int kCalls = 500;
+    constexpr int kCalls = 1000;
     measured.push_back(
         {{"OCD", with, {}}, kCalls, Repeat([point] { point->Ocd(); })});
     measured.push_back(
@@ -116,6 +141,9 @@ std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions) {
                           point->Rma();
                           point->Ccd();
                         })});
+    if (macrotask::NumProcessors() >= 2) {
+      measured.push_back(TwoAtOnce(lift, lanes, with));
+    }
   }
   return Interleave(std::move(measured), repetitions);
 }
@@ -131,6 +159,11 @@ std::vector<Cost> MeasureSynchronization(macrotask::WaitPolicy wait,
          lock->On();
          lock->Off();
        })});
+  const auto taken = std::make_shared<macrotask::Lock>(wait);
+  taken->On();
+  measured.push_back({{"LOCKTEST", "1 task, set, " + policy, {}},
+                      10000,
+                      Repeat([taken] { (void)taken->Test(); })});
   measured.push_back(
       {{"TSKSTART + TSKWAIT", "1 task, " + policy, {}}, 100, Repeat([wait] {
          macrotask::Task task([] {}, {.wait = wait});

@@ -17,7 +17,8 @@ struct Cost {
 
 // The blocks of a derivative evaluation of all chains at one point, on one
 // processor, at both lane widths: "OCD", "RMA", "CCD" and "evaluation", which
-// is all three. Repetitions interleaved.
+// is all three; and with two processors "evaluation, two at once", by two tasks
+// that do not wait for each other. Repetitions interleaved.
 std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions);
 
 // The synchronization constructs, with two tasks when there are two processors:

@@ -13,6 +13,8 @@ namespace bench {
 class LiftCase {
  public:
   LiftCase(dynamics::Lift lift, int num_steps);
+  LiftCase(const LiftCase&) = delete;  // systems refer to its torques
+  LiftCase& operator=(const LiftCase&) = delete;
 
   const dynamics::Lift& lift() const { return lift_; }
   const dynamics::TorqueTable& torques() const { return torques_; }

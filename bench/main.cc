@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "bench/build_info.h"
@@ -27,21 +29,37 @@ struct WaitOptions {
   }
 };
 
-// A name on the command line for each value of an enumeration.
+// An option whose values have names. Names only: CLI11's own transformers also
+// take the numbers behind an enumeration, so that "--figure 2" would be
+// Figure 3.
 template <typename Value>
-CLI::Option* AddChoice(CLI::App* app, const std::string& name, Value* value,
-                       const std::map<std::string, Value>& choices,
-                       const std::string& help) {
-  return app->add_option(name, *value, help)
-      ->transform(
-          CLI::CheckedTransformer(choices, CLI::ignore_case).description(""))
-      ->option_text([&] {
-        std::string text;
-        for (const auto& choice : choices) {
-          text += (text.empty() ? "" : "|") + choice.first;
-        }
-        return text;
-      }());
+void AddChoice(CLI::App* app, const std::string& name, Value* value,
+               const std::map<std::string, Value>& choices,
+               const std::string& help) {
+  std::string names;
+  for (const auto& choice : choices) {
+    names += (names.empty() ? "" : ", ") + choice.first;
+  }
+  app->add_option_function<std::string>(
+         name,
+         [=](const std::string& text) {
+           const auto choice = choices.find(text);
+           if (choice == choices.end()) {
+             throw std::invalid_argument("unknown " + name + " '" + text +
+                                         "': expected one of " + names);
+           }
+           *value = choice->second;
+         },
+         help)
+      ->option_text("(" + names + ")");
+}
+
+CLI::Option* AddFile(CLI::App* app, const std::string& name, std::string* path,
+                     const std::string& help) {
+  return app->add_option(name, *path, help)->check([](const std::string& text) {
+    return text.empty() ? std::string("expected the name of a file")
+                        : std::string();
+  });
 }
 
 void AddWaitOptions(CLI::App* app, WaitOptions* wait) {
@@ -74,23 +92,26 @@ void ReproduceCommand::Add(CLI::App* app) {
                   "How often everything is timed, in turn")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  app->add_option("--csv", csv,
-                  "Write Table 2 to this file as CSV (- for the standard "
-                  "output, instead of the tables)");
-  app->add_option("--json", json,
-                  "Write everything, with every raw figure, to this file as "
-                  "JSON (- likewise)");
+  AddFile(app, "--csv", &csv,
+          "Write Table 2 to this file as CSV (- for the standard output, "
+          "instead of the tables)");
+  AddFile(app, "--json", &json,
+          "Write everything, with every raw figure, to this file as JSON (- "
+          "likewise)");
 }
 
 void ReproduceCommand::Run() const {
   for (const std::string& path : {csv, json}) {
     if (!path.empty()) CheckOutput(path);
   }
+  if (!csv.empty() && csv == json) {
+    throw std::invalid_argument("--csv and --json both write to '" + csv + "'");
+  }
   const Reproduction result =
       Reproduce({.repetitions = repetitions, .wait = wait.Policy()});
+  if (csv != "-" && json != "-") WriteOutput("-", ReportText(result));
   if (!csv.empty()) WriteOutput(csv, ReportCsv(result));
   if (!json.empty()) WriteOutput(json, ReportJson(result));
-  if (csv != "-" && json != "-") WriteOutput("-", ReportText(result));
 }
 
 struct SimulateCommand {
@@ -140,10 +161,10 @@ void SimulateCommand::Add(CLI::App* app) {
       ->capture_default_str();
   app->add_flag("--rotor-inertia", options.rotor_inertia,
                 "Add the motors' inertia G^2 Jm to the arms");
-  app->add_option("--output", options.output,
-                  "Write the trajectory to this file as CSV: load, joints, "
-                  "torques and tip forces at every grid point (- for the "
-                  "standard output, instead of the report)");
+  AddFile(app, "--output", &options.output,
+          "Write the trajectory to this file as CSV: load, joints, "
+          "torques and tip forces at every grid point (- for the "
+          "standard output, instead of the report)");
 }
 
 void SimulateCommand::Run() {

@@ -13,15 +13,22 @@ int LaneCount(const LaneTables& tables) {
   return static_cast<int>(tables.lanes);
 }
 
-double MedianSeconds(const TableRow& row) { return Median(row.seconds); }
+std::vector<double> T(const TableRow& row) {
+  std::vector<double> seconds = row.seconds;
+  for (double& s : seconds) s *= row.scale;
+  return seconds;
+}
 
-// S_p of one row, from repetitions that were run next to each other.
+double MedianT(const TableRow& row) { return Median(T(row)); }
+
+// S_p of one row: the ratio of the medians, with the interval of the ratios of
+// repetitions that were run next to each other.
 struct Speedup {
   double value;
   Interval interval;
 };
 Speedup SpeedupOf(const TableRow& serial, const TableRow& row) {
-  return {MedianSeconds(serial) / MedianSeconds(row),
+  return {MedianT(serial) / MedianT(row),
           MedianInterval(Ratios(serial.seconds, row.seconds))};
 }
 
@@ -31,8 +38,7 @@ double StepSpeedup(const Reproduction& reproduction, int block_size) {
          SweepOf(reproduction, block_size).steps_at_target;
 }
 double ClockSpeedup(const LaneTables& tables, int block_size) {
-  return MedianSeconds(SerialRow(tables, 1)) /
-         MedianSeconds(SerialRow(tables, block_size));
+  return MedianT(SerialRow(tables, 1)) / MedianT(SerialRow(tables, block_size));
 }
 
 std::string Micro(double seconds) {
@@ -118,7 +124,7 @@ std::string Table1Text(const LaneTables& tables) {
   for (const TableRow& row : tables.rows) {
     if (row.block_size != 4) continue;
     std::vector<std::string> cells = PartitionCells(row);
-    cells.push_back(row.measured() ? MicroWithInterval(row.seconds)
+    cells.push_back(row.measured() ? MicroWithInterval(T(row))
                                    : NeedsText(row));
     cells.push_back(row.measured() ? SpeedupText(tables, row) : "");
     cells.push_back(BitsText(row));
@@ -141,7 +147,7 @@ std::string Table2Text(const Reproduction& r, const LaneTables& tables) {
       const double S_a = ClockSpeedup(tables, row.block_size);
       const double S_p =
           SpeedupOf(SerialRow(tables, row.block_size), row).value;
-      cells.push_back(Micro(MedianSeconds(row)));
+      cells.push_back(Micro(MedianT(row)));
       cells.push_back(fmt::format("{:.2f}", S_p));
       cells.push_back(fmt::format("{:.3f}", StepSpeedup(r, row.block_size)));
       cells.push_back(fmt::format("{:.3f}", S_a));
@@ -190,12 +196,13 @@ nlohmann::json RowJson(const Reproduction& r, const LaneTables& tables,
                          {"integration_tasks", row.partition.integration_tasks},
                          {"block", row.block_size},
                          {"same_bits_as_serial", row.same_bits},
+                         {"steps_run", row.steps},
                          {"seconds", row.seconds},
                          {"S_a_steps", StepSpeedup(r, row.block_size)}};
   if (row.measured()) {
     const Speedup S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
     const double S_a = ClockSpeedup(tables, row.block_size);
-    json["T"] = MedianSeconds(row);
+    json["T"] = MedianT(row);
     json["S_p"] = S_p.value;
     json["S_p_interval"] = {S_p.interval.low, S_p.interval.high};
     json["S_a_clock"] = S_a;
@@ -271,9 +278,9 @@ std::string ReportCsv(const Reproduction& r) {
       const std::string S_a_steps = number(StepSpeedup(r, row.block_size));
       if (row.measured()) {
         const Speedup S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
-        const Interval T = MedianInterval(row.seconds);
+        const Interval range = MedianInterval(T(row));
         const double S_a = ClockSpeedup(tables, row.block_size);
-        for (const double x : {MedianSeconds(row), T.low, T.high, S_p.value,
+        for (const double x : {MedianT(row), range.low, range.high, S_p.value,
                                S_p.interval.low, S_p.interval.high}) {
           cells.push_back(number(x));
         }

@@ -22,9 +22,11 @@ using integrators::IntegrationResult;
 using integrators::Partition;
 
 // Between these numbers of steps the errors of all three methods pass through
-// the range of the regression.
-constexpr int kFirstSteps = 30;
+// the range of the regression. Multiples of four, so that all three start from
+// the same five values and whole blocks remain.
+constexpr int kFirstSteps = 32;
 constexpr int kLastSteps = 200;
+constexpr int kStepsApart = 4;
 constexpr Interval kErrorRange = {5e-8, 2e-5};  // m
 
 IntegrationOptions OptionsFor(const BlockMethod& method, const LiftCase& lift,
@@ -61,7 +63,7 @@ MethodSweep Sweep(const BlockMethod& method,
 
 std::vector<MethodSweep> SweepAll(Progress* progress) {
   std::vector<std::unique_ptr<LiftCase>> lifts;
-  for (int steps = kFirstSteps; steps <= kLastSteps; ++steps) {
+  for (int steps = kFirstSteps; steps <= kLastSteps; steps += kStepsApart) {
     progress->Show("plan", steps - kFirstSteps, kLastSteps - kFirstSteps);
     lifts.push_back(std::make_unique<LiftCase>(dynamics::PumaLift(), steps));
   }
@@ -84,7 +86,6 @@ struct RunningRow {
   TableRow* row;
   std::unique_ptr<Integration> integration;
   const LiftCase* lift;
-  double scale;  // from the steps that are run to those for the target
 };
 
 // One method's input, at the whole number of steps that reaches the target.
@@ -92,7 +93,8 @@ struct MethodCase {
   MethodCase(const MethodSweep& of, Lanes lanes)
       : sweep(of),
         lift(dynamics::PumaLift(),
-             static_cast<int>(std::ceil(of.steps_at_target))),
+             kStepsApart *
+                 static_cast<int>(std::ceil(of.steps_at_target / kStepsApart))),
         system(lift.lift().model, lift.torques(), lanes) {}
 
   const MethodSweep& sweep;
@@ -111,7 +113,8 @@ class LaneMeasurement {
                      std::make_unique<MethodCase>(sweep, lanes));
     }
     const int processors = macrotask::NumProcessors();
-    tables_.rows = Table2Rows(processors, 4);
+    constexpr int kNumChains = 4;
+    tables_.rows = Table2Rows(processors, kNumChains);
     for (TableRow& row : tables_.rows) Prepare(row, processors);
     PrepareLift();
   }
@@ -123,7 +126,7 @@ class LaneMeasurement {
       running.integration->RunFrom(running.lift->Planned());
       const IntegrationResult result =
           running.integration->RunFrom(running.lift->Planned());
-      running.row->seconds.push_back(result.seconds() * running.scale);
+      running.row->seconds.push_back(result.seconds());
     }
     lift_->Run(lift_start_);
     tables_.lift.seconds.push_back(lift_->Run(lift_start_).seconds());
@@ -144,10 +147,10 @@ class LaneMeasurement {
     // The serial rows come first.
     if (method.serial_state.empty()) method.serial_state = result.state;
     row.same_bits = SameBits(result.state, method.serial_state);
+    row.steps = method.lift.num_steps();
+    row.scale = method.sweep.steps_at_target / row.steps;
     if (row.processors() > processors) return;
-    running_.push_back(
-        {&row, std::move(integration), &method.lift,
-         method.sweep.steps_at_target / method.lift.num_steps()});
+    running_.push_back({&row, std::move(integration), &method.lift});
   }
 
   void PrepareLift() {

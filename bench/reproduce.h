@@ -41,10 +41,13 @@ struct TableRow {
   const PaperRow* paper;  // null if the paper has no such row
   // Whether the states are, bit for bit, those of the serial program.
   bool same_bits = false;
-  // T of each repetition (s): the lift's time, scaled from the whole number of
-  // steps that was run to the one for 1e-6 m. Empty if the row needs more
-  // processors than there are.
+  // The lift's time in each repetition (s), with this number of steps. Empty if
+  // the row needs more processors than there are.
   std::vector<double> seconds;
+  int steps = 0;
+  // From those steps to the number, not a whole one, for 1e-6 m: T is the time
+  // times this.
+  double scale = 1;
 };
 
 // The lift with B1PC5 on one processor, its DOPRI5 start included.

@@ -32,24 +32,21 @@ struct Drift {
   double position = 0;  // m
   double rotation = 0;  // rad
 };
-Drift WorstDrift(const dynamics::ClosedChainSystem& system,
-                 const std::vector<double>& state,
-                 const MemberState<double>& member) {
+std::vector<Drift> DriftOfGrips(const dynamics::ClosedChainSystem& system,
+                                const std::vector<double>& state,
+                                const MemberState<double>& member) {
   const Eigen::Matrix3d axes = dynamics::MemberAxes(member.Q);
   const auto chain_states = ChainStates(system, state.data());
-  Drift worst;
-  for (int k = 0; k < system.num_chains(); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const Eigen::VectorXd q = chain_states[at].head(system.chain_size(k) / 2);
+  std::vector<Drift> drifts;
+  for (std::size_t k = 0; k < chain_states.size(); ++k) {
+    const Eigen::VectorXd q = chain_states[k].head(chain_states[k].size() / 2);
     const Eigen::Isometry3d carried =
-        dynamics::CalcMemberPose(system.model().chains[at], q);
-    worst.position =
-        std::max(worst.position, (carried.translation() - member.p).norm());
+        dynamics::CalcMemberPose(system.model().chains[k], q);
     const Eigen::AngleAxisd turn(
         Eigen::Matrix3d(carried.linear() * axes.transpose()));
-    worst.rotation = std::max(worst.rotation, turn.angle());
+    drifts.push_back({(carried.translation() - member.p).norm(), turn.angle()});
   }
-  return worst;
+  return drifts;
 }
 
 std::string TrajectoryHeader(const dynamics::ClosedChainSystem& system) {
@@ -103,7 +100,11 @@ std::string Report(const SimulateOptions& options, const LiftCase& lift,
                    const dynamics::ClosedChainSystem& system,
                    const integrators::IntegrationResult& result) {
   const MemberState<double> member = lift.Member(result.state);
-  const Drift drift = WorstDrift(system, result.state, member);
+  std::string positions, rotations;
+  for (const Drift& drift : DriftOfGrips(system, result.state, member)) {
+    positions += fmt::format("{:.2e} ", drift.position);
+    rotations += fmt::format("{:.2e} ", drift.rotation);
+  }
   const int tasks = options.partition.num_tasks();
   const double duration = lift.lift().duration;
   return fmt::format(
@@ -114,7 +115,8 @@ std::string Report(const SimulateOptions& options, const LiftCase& lift,
       "final position:    {:.12f} {:.12f} {:.12f} m\n"
       "final orientation: {:.12f} {:.12f} {:.12f} {:.12f} (w x y z)\n"
       "error:             {:.3e} m from the planned end\n"
-      "drift of grips:    {:.3e} m, {:.3e} rad (worst of {})\n"
+      "drift of grips:    {}m\n"
+      "                   {}rad\n"
       "evaluations:       {}\n"
       "time:              {:.1f} us (start {:.1f} us)\n"
       "real-time factor:  {:.0f}\n",
@@ -124,24 +126,31 @@ std::string Report(const SimulateOptions& options, const LiftCase& lift,
       macrotask::Placement(tasks).ToString(), Name(options.wait.kind),
       static_cast<int>(options.lanes), member.p[0], member.p[1], member.p[2],
       member.Q[0], member.Q[1], member.Q[2], member.Q[3],
-      lift.Error(result.state), drift.position, drift.rotation,
-      system.num_chains(), result.evaluations, result.seconds() * 1e6,
-      result.start_seconds * 1e6, duration / result.seconds());
+      lift.Error(result.state), positions, rotations, result.evaluations,
+      result.seconds() * 1e6, result.start_seconds * 1e6,
+      duration / result.seconds());
 }
 
 }  // namespace
 
 std::string Simulate(const SimulateOptions& options) {
   const auto method = integrators::ParseBlockMethod(options.method);
-  if (options.num_chains < 1) {
-    throw std::invalid_argument(
-        fmt::format("{} chains: expected at least one", options.num_chains));
+  constexpr int kMostChains = 10'000;  // whose models fit in memory
+  if (options.num_chains < 1 || options.num_chains > kMostChains) {
+    throw std::invalid_argument(fmt::format("{} chains: expected 1 to {}",
+                                            options.num_chains, kMostChains));
   }
   if (!options.output.empty()) CheckOutput(options.output);
   dynamics::Lift input =
       dynamics::PumaLift(options.num_chains, options.rotor_inertia);
   const int steps = integrators::CountSteps(input.duration, options.step);
   integrators::CheckNumSteps(method, steps);
+  constexpr int kFewestSteps = 5;  // a torque table between whose times to
+                                   // interpolate
+  if (steps < kFewestSteps) {
+    throw std::invalid_argument(fmt::format(
+        "{} steps: the lift is planned in at least {}", steps, kFewestSteps));
+  }
   const LiftCase lift(std::move(input), steps);
   const dynamics::ClosedChainSystem system(lift.lift().model, lift.torques(),
                                            options.lanes);

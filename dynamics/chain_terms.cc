@@ -1,5 +1,7 @@
 #include "dynamics/chain_terms.h"
 
+#include <algorithm>
+
 #include "dynamics/chain_terms-inl.h"
 
 namespace dynamics {
@@ -53,8 +55,8 @@ ChainConstants<S> MakeChainConstants(const std::vector<const Chain*>& chains,
   const int n = chains.at(0)->arm.num_joints();
   constants.joints.resize(n);
   for (int lane = 0; lane < kLanesOf<S>; ++lane) {
-    const bool used = lane < static_cast<int>(chains.size());
-    const Chain& chain = *chains[used ? lane : 0];
+    const std::size_t last = chains.size() - 1;
+    const Chain& chain = *chains[std::min<std::size_t>(lane, last)];
     for (int i = 0; i < n; ++i) {
       const Link& link = chain.arm.links[i];
       SetJointLane<S>(

@@ -57,8 +57,8 @@ struct ChainTerms {
 // Whether the two can share a pack: the same joint types in the same order.
 bool SameJointTypes(const ArmModel& a, const ArmModel& b);
 
-// Constants of the given chains, lane l for chains[l]; chains[0] fills the
-// lanes that are left over. Requires 1 <= chains.size() <= kLanesOf<S>, all
+// Constants of the given chains, lane l for chains[l]; the last one fills
+// the lanes that are left over. Requires 1 <= chains.size() <= kLanesOf<S>, all
 // with the same joint types.
 template <typename S>
 ChainConstants<S> MakeChainConstants(const std::vector<const Chain*>& chains,

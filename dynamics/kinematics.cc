@@ -70,7 +70,7 @@ std::vector<int> ChooseCarryingJoints(const Chain& chain,
   const Eigen::VectorXd qd = Eigen::VectorXd::Zero(n);
   CalcChainTerms(constants, q.data(), qd.data(), &terms);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Jacobian(terms));
-  qr.setThreshold(std::sqrt(kSingularPivot));
+  qr.setThreshold(kSingularJacobian);
   if (qr.rank() < 6) {
     throw std::runtime_error(where +
                              " is at a singularity (Lambda^-1 is not "
@@ -110,8 +110,7 @@ Eigen::VectorXd SolveInverseKinematics(const Chain& chain,
     }
     if (miss.lpNorm<Eigen::Infinity>() < kConverged) return q;
   }
-  throw std::runtime_error(where +
-                           " cannot reach its grip: the nearest found is " +
+  throw std::runtime_error(where + " cannot reach its grip: the last try is " +
                            std::to_string(miss.tail<3>().norm()) + " m and " +
                            std::to_string(miss.head<3>().norm()) + " rad away");
 }

@@ -15,10 +15,13 @@ namespace dynamics {
 // 8e-4; 1e-5 rad from a stretched wrist (q5 = 0) it is 1e-7; there it is
 // rounding error, below 3e-10 in 99 of 100 random postures.
 inline constexpr double kSingularPivot = 1e-8;
+// The same for J itself, whose square is in Lambda^-1.
+inline constexpr double kSingularJacobian = 1e-4;
 
 // Overwrites the strict lower triangle of the n x n matrix A with that of L and
 // fills d_inv[0..n) with the reciprocals of D. Returns, lane by lane, a number
-// that is positive iff every pivot was (NaN when A has NaN).
+// that is positive iff every pivot is above kSingularPivot of its diagonal
+// element (NaN when A has NaN).
 template <typename S, typename Matrix>
 S FactorizeLdlt(int n, Matrix* A_inout, S* d_inv) {
   Matrix& A = *A_inout;

@@ -38,9 +38,11 @@ struct OpenChainWork {
 //   x''_open  = J' q' + J q''_open
 //   Lambda^-1 = J H^-1 J^T
 //
+// so that a tip force f gives x'' = x''_open - Lambda^-1 f (5).
 // q, qd, tau: N values each. Where the chain is singular or q is NaN, `margin`
-// says so, in its own lane only; NaN in qd or tau reaches x''_open. No allocation; any number of tasks
-// may call it at once, each with its own work space.
+// says so, in its own lane only; NaN in qd or tau reaches x''_open. No
+// allocation; any number of tasks may call it at once, each with its own work
+// space.
 // Cost: bench row "OCD".
 template <typename S>
 void CalcOpenChain(const ChainConstants<S>& chain, const S* q, const S* qd,

@@ -7,6 +7,7 @@
 #include "dynamics/chain_terms.h"
 #include "dynamics/closed_chain_system.h"
 #include "dynamics/kinematics.h"
+#include "dynamics/ldlt.h"
 
 namespace dynamics {
 namespace {
@@ -50,7 +51,7 @@ class ChainPlanner {
     Eigen::Matrix<double, 6, 6> J;
     for (int i = 0; i < 6; ++i) J.col(i) = Jacobian(terms_).col(joints_[i]);
     Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 6, 6>> qr(J);
-    qr.setThreshold(1e-9);
+    qr.setThreshold(kSingularJacobian);
     if (qr.rank() < 6) {
       throw std::runtime_error(
           where + " is at a singularity (Lambda^-1 is not invertible)");

@@ -46,8 +46,7 @@ struct SpatialVector {
   }
 };
 
-// v x m: rate of change of a motion vector m that moves with velocity v
-// [Featherstone08 (2.33)].
+// v x m: rate of change of a motion vector m that moves with velocity v.
 template <typename S>
 SpatialVector<S> CrossMotion(const SpatialVector<S>& v,
                              const SpatialVector<S>& m) {

@@ -57,6 +57,22 @@ TorqueTable::TorqueTable(double step, std::vector<Eigen::MatrixXd> profile)
   }
 }
 
+void TorqueTable::CheckFits(const SystemModel& model) const {
+  if (static_cast<int>(profile_.size()) != model.num_chains()) {
+    throw std::invalid_argument(
+        "the torque table has " + std::to_string(profile_.size()) +
+        " chains: expected " + std::to_string(model.num_chains()));
+  }
+  for (std::size_t k = 0; k < profile_.size(); ++k) {
+    if (profile_[k].rows() != model.chains[k].arm.num_joints()) {
+      throw std::invalid_argument(
+          "the torque table of chain " + std::to_string(k) + " has " +
+          std::to_string(profile_[k].rows()) + " joints: expected " +
+          std::to_string(model.chains[k].arm.num_joints()));
+    }
+  }
+}
+
 void TorqueTable::Calc(int k, double t, const double* /*q*/,
                        const double* /*qd*/, double* tau) const {
   const Eigen::MatrixXd& torques = profile_[k];

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
 #include <vector>
+
+#include "dynamics/model.h"
 
 namespace dynamics {
 
@@ -10,6 +13,9 @@ namespace dynamics {
 class TorqueSource {
  public:
   virtual ~TorqueSource() = default;
+
+  // Throws std::invalid_argument, one sentence, if it cannot serve the model.
+  virtual void CheckFits(const SystemModel& /*model*/) const {}
 
   // Fills tau[0..N) (N m or N) with the torques of chain k at the time t (s)
   // when it is in the state q, qd (N values each). Called by many tasks at
@@ -46,6 +52,8 @@ class TorqueTable final : public TorqueSource {
   // is not finite; or if there are fewer than six times, or the chains differ
   // in how many.
   TorqueTable(double step, std::vector<Eigen::MatrixXd> profile);
+
+  void CheckFits(const SystemModel& model) const override;
 
   // Throws std::out_of_range if t is outside of the table by more than a
   // rounding error.

@@ -113,7 +113,14 @@ BlockMethod ParseBlockMethod(std::string_view name) {
       num_values <= block_size) {
     RejectName(name);
   }
-  return MakeBlockMethod(block_size, num_values);
+  try {
+    constexpr int kTooMany = 100;  // whose weights overflow in any case
+    if (num_values < kTooMany) return MakeBlockMethod(block_size, num_values);
+  } catch (const std::overflow_error&) {
+  }
+  throw std::invalid_argument("method '" + std::string(name) +
+                              "': its coefficients do not fit 64-bit "
+                              "fractions");
 }
 
 }  // namespace integrators

@@ -142,11 +142,11 @@ void BlockTask::Ccd(Phase phase) {
   evaluation_->Ccd(coupling_, place_->chain_rates[SetOf(phase)]);
 }
 
-bool BlockTask::Failed() const {
+void BlockTask::ShiftBlocks() {
   for (int i = 0; i < run_.partition.integration_tasks; ++i) {
-    if (run_.failure(i, rma_column_).code != 0) return true;
+    if (run_.failure(i, rma_column_).code != 0) return column_.End();
   }
-  return false;
+  column_.ShiftBlocks();
 }
 
 }  // namespace integrators

@@ -13,7 +13,7 @@ namespace integrators {
 //
 // Use: by its own task only. Between calls of several tasks, the figure must
 // synchronize as each call says. No call allocates.
-class BlockTask {
+class alignas(macrotask::kCacheLine) BlockTask {
  public:
   // Task (i, k), both counted from 0: integration task i < p^, chain task k <
   // m^. `factory` is the run's.
@@ -39,15 +39,17 @@ class BlockTask {
   // CCD of the owned chains at the owned points. Requires RMA.
   void Ccd(Phase phase);
 
-  // Shifts the blocks of the column. Requires the corrected derivatives of all
-  // its points, and that no other task computes with the column meanwhile.
-  void ShiftBlocks() { column_.ShiftBlocks(); }
+  // Shifts the blocks of the column; if any point failed, ends the run instead.
+  // Requires the corrected derivatives of all its points, and that no other
+  // task computes with the column meanwhile. All columns come to the same
+  // decision: every chain task of a point sees what all chains left for RMA,
+  // and every column sees all points.
+  void ShiftBlocks();
 
-  // Whether any point of the last evaluations failed. All tasks of a run get
-  // the same answer, once the column has synchronized after Ccd: every chain
-  // task of a point sees what all chains left for RMA, and every column sees
-  // all points.
-  bool Failed() const;
+  // Whether the last shift ended the run. Only the task that shifts may look at
+  // the failures themselves: it may be computing the next block already, and
+  // failing in it, when the others ask.
+  bool Ended() const { return column_.ended(); }
 
   // What the system's user code threw in this task since the last call.
   std::exception_ptr TakeError() { return evaluation_->TakeError(); }

@@ -10,7 +10,7 @@ Column::Column(const BlockMethod& method, StateLayout layout, int newest)
       block_size_(method.block_size),
       // k derivatives that are read and b that are written, in whole blocks.
       num_places_((method.num_values - 1) / method.block_size + 2),
-      newest_{newest} {
+      shift_{{.newest = newest, .ended = false}} {
   for (int slot = 0; slot < num_places_ * block_size_; ++slot) {
     y_.emplace_back(layout_.size());
     f_.emplace_back(layout_.size());
@@ -21,7 +21,7 @@ Column::Column(const BlockMethod& method, StateLayout layout, int newest)
 }
 
 int Column::place() const {
-  return (*newest_ - start_) / block_size_ % num_places_;
+  return (shift_->newest - start_) / block_size_ % num_places_;
 }
 
 // Point i of a block is at slot place b + i - 1.

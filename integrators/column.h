@@ -26,7 +26,7 @@ class Column {
   const StateLayout& layout() const { return layout_; }
 
   // Grid point of y_0.
-  int newest() const { return *newest_; }
+  int newest() const { return shift_->newest; }
   // Length of the ring in blocks, and where in it the current block is.
   int num_places() const { return num_places_; }
   int place() const;
@@ -42,11 +42,15 @@ class Column {
   }
 
   // Back to y_0 at the grid point of the constructor.
-  void Rewind() { *newest_ = start_; }
+  void Rewind() { *shift_ = {.newest = start_, .ended = false}; }
 
   // The end of an iteration: the last point of the block becomes y_0, and the
   // derivatives move b places into the past.
-  void ShiftBlocks() { *newest_ += block_size_; }
+  void ShiftBlocks() { shift_->newest += block_size_; }
+
+  // Instead of a shift: there is no next block.
+  void End() { shift_->ended = true; }
+  bool ended() const { return shift_->ended; }
 
  private:
   std::size_t Slot(int place, int offset) const;
@@ -60,7 +64,11 @@ class Column {
   std::vector<AlignedDoubles> y_, f_;        // (num_places b)
   std::vector<AlignedDoubles> f_predicted_;  // (b)
   // Written by the task that shifts, read by all of the column.
-  macrotask::CacheAligned<int> newest_;
+  struct Shift {
+    int newest;
+    bool ended;
+  };
+  macrotask::CacheAligned<Shift> shift_;
 };
 
 }  // namespace integrators

@@ -1,5 +1,5 @@
-// Figure 2, spatial parallelism with serial RMA [MSO93 section 2]. One derivative
-// evaluation; an iteration has two, PE and CE.
+// Figure 2, spatial parallelism with serial RMA [MSO93 section 2]. One
+// derivative evaluation; an iteration has two, PE and CE.
 //
 //     task 1          task 2     ...    task m^
 //    [ CS_1 ]        [ CS_2 ]          [ CS_m ]     compute state
@@ -35,8 +35,8 @@ class Figure2 final : public TaskStructure {
       task.Correct();  // CS
       Evaluate(k, Phase::kCorrected, task);
 
-      if (task.Failed()) return;
       task.ShiftBlocks();
+      if (task.Ended()) return;
     }
   }
 

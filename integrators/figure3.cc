@@ -31,8 +31,8 @@ class Figure3 final : public TaskStructure {
       task.Correct();  // CS
       Evaluate(Phase::kCorrected, task);
 
-      if (task.Failed()) return;
       task.ShiftBlocks();
+      if (task.Ended()) return;
     }
   }
 

@@ -35,13 +35,13 @@ class Figure7 final : public TaskStructure {
       Evaluate(Phase::kCorrected, task);
       all_points_.Sync();  // BARSYNC(p^)
 
-      if (task.Failed()) return;
       if (i == 0) {
         task.ShiftBlocks();      // shift blocks
         blocks_shifted_.Post();  // EVPOST
       } else {
         blocks_shifted_.Wait();  // EVWAIT
       }
+      if (task.Ended()) return;
     }
   }
 

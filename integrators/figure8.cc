@@ -65,13 +65,13 @@ class Figure8 final : public TaskStructure {
       task.Ccd(Phase::kCorrected);  // CCD
       points.Sync();                // BARSYNC(p^)
 
-      if (task.Failed()) return;
       if (i == 0) {
         task.ShiftBlocks();  // shift
         shifted.Post();      // EVPOST
       } else {
         shifted.Wait();  // EVWAIT
       }
+      if (task.Ended()) return;
     }
   }
 

@@ -1,7 +1,9 @@
 #include "integrators/integration.h"
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -31,6 +33,13 @@ const IntegrationOptions& Checked(const System& system,
   return options;
 }
 
+// The shortest text that reads back as x.
+std::string ToText(double x) {
+  char text[32];
+  const auto result = std::to_chars(text, text + sizeof text, x);
+  return std::string(text, result.ptr);
+}
+
 double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
       .count();
@@ -39,12 +48,20 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 int CountSteps(double duration, double step) {
+  if (!(step > 0)) {
+    throw std::invalid_argument("the step must be positive, not " +
+                                ToText(step) + " s");
+  }
   const double steps = std::round(duration / step);
-  if (!(step > 0) || !(steps >= 1) || steps > 1e9 ||
-      std::abs(steps * step - duration) > 1e-9 * step) {
-    throw std::invalid_argument("the step of " + std::to_string(step) +
+  if (!(steps >= 1) || std::abs(steps * step - duration) > 1e-9 * step) {
+    throw std::invalid_argument("the step of " + ToText(step) +
                                 " s does not divide the duration of " +
-                                std::to_string(duration) + " s");
+                                ToText(duration) + " s");
+  }
+  constexpr double kMaxSteps = 1e6;  // the tables of a run are in memory
+  if (steps > kMaxSteps) {
+    throw std::invalid_argument("the step of " + ToText(step) +
+                                " s makes more than a million steps");
   }
   return static_cast<int>(steps);
 }
@@ -67,13 +84,17 @@ Integration::Integration(std::unique_ptr<System> system,
       factory_(system_->MakeFactory(options.method.block_size)),
       figure_(options.figure) {
   MakeTaskStructure(figure_, options.partition, wait_);
-  const auto [m, p] = options.partition;
-  for (int i = 0; i < p; ++i) {
-    for (int k = 0; k < m; ++k) {
-      tasks_.push_back(
-          std::make_unique<BlockTask>(&run_, i, k, factory_.get()));
-    }
-  }
+  // Each task allocates its own work space, so that no two share a cache line:
+  // the allocator serves every pthread from an arena of its own.
+  tasks_.resize(static_cast<std::size_t>(options.partition.num_tasks()));
+  const int m = options.partition.chain_tasks;
+  macrotask::RunTasks(
+      options.partition.num_tasks(),
+      [&](int task) {
+        tasks_[static_cast<std::size_t>(task)] = std::make_unique<BlockTask>(
+            &run_, task / m, task % m, factory_.get());
+      },
+      wait_);
   if (options.record) {
     trajectory_.resize((static_cast<std::size_t>(options.num_steps) + 1) *
                        run_.layout.size());

@@ -25,8 +25,8 @@ struct IntegrationOptions {
 };
 
 // Number of steps of length `step` in `duration` (s). Throws
-// std::invalid_argument, one sentence, if the step is not positive or does not
-// divide the duration (to 1e-9 of a step).
+// std::invalid_argument, one sentence, if the step is not positive, does not
+// divide the duration (to 1e-9 of a step), or makes more than a million steps.
 int CountSteps(double duration, double step);
 
 // Throws std::invalid_argument, one sentence, if the method cannot start in so
@@ -51,11 +51,16 @@ class Integration {
   // Throws std::invalid_argument, one sentence, if the partition is larger than
   // the chains or the points of a block, does not suit the figure, or there are
   // fewer steps than the method needs to start.
+  // `system` must outlive it.
   template <ChainSystem S>
   Integration(const S& system, const IntegrationOptions& options)
       : Integration(std::make_unique<SystemOf<S>>(system), options) {}
+  template <ChainSystem S>
+  Integration(const S&& system, const IntegrationOptions& options) = delete;
   Integration(std::unique_ptr<System> system,
               const IntegrationOptions& options);
+  Integration(const Integration&) = delete;
+  Integration& operator=(const Integration&) = delete;
 
   // Integrates from the full state y0 at t = 0, starting with DOPRI5. Throws
   // IntegrationError where the system cannot be evaluated, what its user code

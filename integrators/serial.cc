@@ -19,8 +19,8 @@ class Serial final : public TaskStructure {
       task.Rma(Phase::kCorrected);
       task.Ccd(Phase::kCorrected);
 
-      if (task.Failed()) return;
       task.ShiftBlocks();
+      if (task.Ended()) return;
     }
   }
 };

@@ -17,7 +17,7 @@ namespace macrotask {
 // sees what was written before the posts that it clears, so that `Clear();
 // look; Wait()` misses nothing.
 // Cost: one atomic read-modify-write for Post() and Clear(), one load for
-// Wait() on a posted event (bench row "EVPOST").
+// Wait() on a posted event (bench row "EVPOST to EVWAIT").
 //
 //   Event ready;
 //   RunTasks(2, [&](int task) {

@@ -19,7 +19,7 @@ struct Processors {
 Processors AskProcessors() {
   Processors processors;
   // A machine of more than CPU_SETSIZE processors refuses the fixed-size mask:
-  // there tasks run unpinned, as many at a time as this one processor says.
+  // there we know of processor 0 only, and use it.
   CPU_ZERO(&processors.mask);
   if (sched_getaffinity(0, sizeof processors.mask, &processors.mask) != 0) {
     CPU_SET(0, &processors.mask);

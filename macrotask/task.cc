@@ -35,6 +35,7 @@ Worker* AcquireForTask(int processor) {
   try {
     return pool.Acquire(processor);
   } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) throw;
     throw CannotStartTasks(1, pool.num_workers() + 1, error.code());
   }
 }
@@ -53,8 +54,12 @@ std::vector<Worker*> AcquireForTasks(const std::vector<int>& processors) {
     const int num_threads = pool.num_workers() + 1;
     for (Worker* worker : workers) pool.Return(worker);
     pool.JoinIdle();
+    if (error.code() != std::errc::resource_unavailable_try_again) throw;
     throw CannotStartTasks(static_cast<int>(processors.size()), num_threads,
                            error.code());
+  } catch (...) {
+    for (Worker* worker : workers) pool.Return(worker);
+    throw;
   }
   return workers;
 }

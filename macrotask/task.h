@@ -27,7 +27,7 @@ struct TaskOptions {
 // returns false.
 // Cost: a start on a pthread that still holds its processor from the task
 // before makes no system call; one that sleeps is woken; the first ones are
-// created (bench row "TSKSTART").
+// created (bench row "TSKSTART + TSKWAIT").
 //
 //   double left = 0;
 //   Task task([&] { left = Sum(0, n / 2); });

@@ -29,7 +29,7 @@ inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
 // yields the processor between two looks, so that every policy makes progress
 // with any number of tasks. Live tasks are the initial one and those of this
 // library; other threads of the program are not counted.
-// Cost: every bench row of a synchronization has one line for each policy.
+// Cost: every bench row of a synchronization says which policy it is of.
 //
 //   Barrier faithful(num_tasks, WaitPolicy::Block());
 //   Barrier dedicated(num_tasks, WaitPolicy::Spin());

@@ -19,7 +19,10 @@ class PthreadAttributes {
   explicit PthreadAttributes(int processor) {
     CheckPthread(pthread_attr_init(&attributes_), "pthread_attr_init");
     const cpu_set_t affinity = AffinityFor(processor);
-    pthread_attr_setaffinity_np(&attributes_, sizeof affinity, &affinity);
+    const int error =
+        pthread_attr_setaffinity_np(&attributes_, sizeof affinity, &affinity);
+    if (error != 0) pthread_attr_destroy(&attributes_);
+    CheckPthread(error, "pthread_attr_setaffinity_np");
   }
   ~PthreadAttributes() { pthread_attr_destroy(&attributes_); }
   PthreadAttributes(const PthreadAttributes&) = delete;

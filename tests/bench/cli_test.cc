@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
-#include <array>
-#include <cstdio>
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -57,8 +58,7 @@ class Cli : public testing::Test {
 
 TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
   ExpectRejected("simulate --step 0.03",
-                 "the step of 0.030000 s does not divide the duration of "
-                 "1.000000 s");
+                 "the step of 0.03 s does not divide the duration of 1 s");
   ExpectRejected("simulate --chain-tasks 5",
                  "5 chain tasks: expected 1 to 4, the number of chains");
   ExpectRejected("simulate --method B2PC5 --integration-tasks 3",
@@ -70,8 +70,22 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
   ExpectRejected("simulate --figure serial --chain-tasks 2",
                  "serial has one task: got 2 chain tasks and 1 integration "
                  "tasks");
-  ExpectRejected("simulate --chains 0", "0 chains: expected at least one");
+  ExpectRejected("simulate --chains 0", "0 chains: expected 1 to 10000");
   ExpectRejected("simulate --step 0.25", "4 steps: B1PC5 needs at least 5");
+  ExpectRejected("simulate --method B1PC2 --step 0.5",
+                 "2 steps: the lift is planned in at least 5");
+  ExpectRejected("simulate --method B1PC40",
+                 "method 'B1PC40': its coefficients do not fit 64-bit "
+                 "fractions");
+  ExpectRejected("simulate --figure 2",
+                 "unknown --figure '2': expected one of figure2, figure3, "
+                 "figure7, figure8, serial");
+  ExpectRejected("simulate --wait never",
+                 "unknown --wait 'never': expected one of block, hold, spin");
+  ExpectRejected("reproduce --csv x --json x",
+                 "--csv and --json both write to 'x'");
+  ExpectRejected("simulate --output /tmp",
+                 "cannot write '/tmp': Is a directory");
   ExpectRejected("simulate --output /none/x.csv",
                  "cannot write '/none/x.csv': No such file or directory");
 }
@@ -114,6 +128,22 @@ TEST_F(Cli, TrajectoryGoesToAPipe) {
   const Outcome outcome = Run("simulate --step 0.02 --output -");
   EXPECT_EQ(outcome.out.substr(0, 2), "t,");
   EXPECT_EQ(outcome.error, "");
+}
+
+TEST_F(Cli, DeviceIsWrittenToAndNotReplaced) {
+  EXPECT_EQ(Run("simulate --step 0.02 --output /dev/null").exit_code, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+// Two processors or one, the trajectory is the same to the last digit.
+TEST_F(Cli, NumberOfProcessorsDoesNotChangeTheTrajectory) {
+  const std::string arguments =
+      "simulate --method B4PC5 --step 0.02 --chain-tasks 2 "
+      "--integration-tasks 2 --output -";
+  const Outcome all = Run(arguments);
+  const Outcome one = Run(arguments, "taskset -c 0 ");
+  EXPECT_EQ(one.exit_code, 0) << one.error;
+  EXPECT_EQ(all.out, one.out);
 }
 
 TEST_F(Cli, AllFiguresAndPoliciesRun) {

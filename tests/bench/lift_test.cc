@@ -177,6 +177,38 @@ TEST(Lift, ControllerBringsTheLoadToItsEnd) {
   EXPECT_TRUE(SameBits(run(Figure::kFigure8, {2, 2}), serial));
 }
 
+TEST(Lift, NanOfAControllerIsNamedWithItsChainAndTime) {
+  const LiftCase lift(dynamics::PumaLift(), 40);
+  const dynamics::TorqueFunction controller(
+      [&](int k, double t, const double* q, const double* qd, double* tau) {
+        lift.torques().Calc(k, t, q, qd, tau);
+        if (k == 2 && t > 0.51) tau[3] = std::nan("");
+      });
+  const ClosedChainSystem system(lift.lift().model, controller, Lanes::kFour);
+  for (const Partition partition : {Partition{1, 1}, {2, 2}, {4, 4}}) {
+    Integration integration(system, {.method = integrators::B4PC5(),
+                                     .step = lift.step(),
+                                     .num_steps = lift.num_steps(),
+                                     .figure = Figure::kFigure8,
+                                     .partition = partition});
+    try {
+      integration.Run(lift.InitialState());
+      ADD_FAILURE();
+    } catch (const integrators::IntegrationError& error) {
+      EXPECT_STREQ(error.what(),
+                   "the acceleration of chain 2 is not finite (its torques or "
+                   "its state are not) at t = 0.525000 s");
+    }
+  }
+}
+
+TEST(Lift, TorqueTableOfAnotherModelIsRejected) {
+  const LiftCase two(dynamics::PumaLift(2), 10);
+  const auto four = dynamics::PumaLift(4).model;
+  EXPECT_THROW(ClosedChainSystem(four, two.torques(), Lanes::kOne),
+               std::invalid_argument);
+}
+
 TEST(Lift, ChainOfFiveJointsIsNamedWithTheTime) {
   dynamics::Lift short_arm = dynamics::PumaLift(2);
   const LiftCase good(dynamics::PumaLift(2), 20);

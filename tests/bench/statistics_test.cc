@@ -25,8 +25,7 @@ std::vector<double> OneTo(int n) {
   return samples;
 }
 
-// Ranks from a table of the sign test (Conover, Practical Nonparametric
-// Statistics, table A3, p = 0.5): at most 2.5 % on either side.
+// Ranks r with P(X < r) <= 2.5 % for X binomial with p = 1/2, added up by hand.
 TEST(MedianInterval, HasTheRanksOfTheBinomialDistribution) {
   const struct {
     int n;

@@ -140,7 +140,7 @@ TEST(ChainTerms, LaneDoesNotDependOnItsNeighboursBitForBit) {
   }
 }
 
-TEST(MakeChainConstants, FillsLanesLeftOverWithTheFirstChain) {
+TEST(MakeChainConstants, FillsLanesLeftOverWithTheLastChain) {
   support::Random random(5);
   const Batch<Pack<4>> batch(6, 1, &random);
   const auto constants = MakeChainConstants<Pack<4>>(
@@ -148,7 +148,7 @@ TEST(MakeChainConstants, FillsLanesLeftOverWithTheFirstChain) {
   for (std::size_t i = 0; i < constants.joints.size(); ++i) {
     const auto& joint = constants.joints[i];
     for (int lane = 0; lane < 4; ++lane) {
-      const Link& link = batch.chains[lane == 1].arm.links[i];
+      const Link& link = batch.chains[lane >= 1].arm.links[i];
       EXPECT_EQ(Lane(joint.mass, lane), link.mass);
       EXPECT_EQ(LaneOf(joint.inertia, lane), link.inertia);
     }

@@ -61,7 +61,7 @@ TEST(SolveInverseKinematics, SaysByHowMuchAnUnreachableGripIsMissed) {
                                  lift.q_guess[0], "chain 2 at t = 0.5 s");
   });
   EXPECT_EQ(complaint.rfind("chain 2 at t = 0.5 s cannot reach its grip: the "
-                            "nearest found is ",
+                            "last try is ",
                             0),
             0u)
       << complaint;

@@ -58,7 +58,7 @@ TEST(BlockMethod, NoFormulaOfTheFirstPointIntegratesOneDegreeMore) {
   }
 }
 
-// Hairer, Norsett & Wanner, Solving ODEs I, III.1, (1.5) and (1.9).
+// The classical coefficients of Adams.
 TEST(BlockMethod, B1PC5IsAdamsBashforthWithAdamsMoulton) {
   const BlockMethod method = B1PC5();
   const std::vector<Rational> bashforth = {

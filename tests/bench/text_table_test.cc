@@ -1,8 +1,8 @@
+#include "bench/text_table.h"
+
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-
-#include "bench/text_table.h"
 
 namespace bench {
 namespace {
