@@ -128,7 +128,8 @@ std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions) {
   std::vector<Measured> measured;
   for (const auto lanes : {dynamics::Lanes::kFour, dynamics::Lanes::kOne}) {
     const auto point = std::make_shared<OnePoint>(lift, lanes);
-    const std::string with = std::to_string(static_cast<int>(lanes)) + " lanes";
+    const std::string with =
+        lanes == dynamics::Lanes::kOne ? "1 lane" : "4 lanes";
     constexpr int kCalls = 1000;
     measured.push_back(
         {{"OCD", with, {}}, kCalls, Repeat([point] { point->Ocd(); })});

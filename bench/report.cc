@@ -13,6 +13,10 @@ int LaneCount(const LaneTables& tables) {
   return static_cast<int>(tables.lanes);
 }
 
+std::string LanesText(const LaneTables& tables) {
+  return tables.lanes == dynamics::Lanes::kOne ? "1 lane" : "4 lanes";
+}
+
 std::vector<double> T(const TableRow& row) {
   std::vector<double> seconds = row.seconds;
   for (double& s : seconds) s *= row.scale;
@@ -21,15 +25,22 @@ std::vector<double> T(const TableRow& row) {
 
 double MedianT(const TableRow& row) { return Median(T(row)); }
 
-// S_p of one row: the ratio of the medians, with the interval of the ratios of
-// repetitions that were run next to each other.
-struct Speedup {
+// A gain: the median of the ratios of times that were measured next to each
+// other. The machine changes its speed from second to second, so that the ratio
+// of the two medians may lie outside of all that was seen side by side.
+struct Gain {
   double value;
   Interval interval;
 };
-Speedup SpeedupOf(const TableRow& serial, const TableRow& row) {
-  return {MedianT(serial) / MedianT(row),
-          MedianInterval(Ratios(serial.seconds, row.seconds))};
+Gain GainOf(const std::vector<double>& before,
+            const std::vector<double>& after) {
+  const std::vector<double> ratios = Ratios(before, after);
+  return {Median(ratios), MedianInterval(ratios)};
+}
+
+// S_p of one row.
+Gain SpeedupOf(const TableRow& serial, const TableRow& row) {
+  return GainOf(serial.seconds, row.seconds);
 }
 
 // S_a from the numbers of steps, a pure number, and from the clock.
@@ -38,7 +49,8 @@ double StepSpeedup(const Reproduction& reproduction, int block_size) {
          SweepOf(reproduction, block_size).steps_at_target;
 }
 double ClockSpeedup(const LaneTables& tables, int block_size) {
-  return MedianT(SerialRow(tables, 1)) / MedianT(SerialRow(tables, block_size));
+  return GainOf(T(SerialRow(tables, 1)), T(SerialRow(tables, block_size)))
+      .value;
 }
 
 std::string Micro(double seconds) {
@@ -108,7 +120,7 @@ std::string NeedsText(const TableRow& row) {
 }
 
 std::string SpeedupText(const LaneTables& tables, const TableRow& row) {
-  const Speedup s = SpeedupOf(SerialRow(tables, row.block_size), row);
+  const Gain s = SpeedupOf(SerialRow(tables, row.block_size), row);
   if (row.processors() == 1) return "1.00";
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", s.value, s.interval.low,
                      s.interval.high);
@@ -132,8 +144,8 @@ std::string Table1Text(const LaneTables& tables) {
     cells.push_back(PaperCell(row, &PaperRow::S_p));
     table.AddRow(std::move(cells));
   }
-  return fmt::format("Table 1: speedup results for B4PC5, {} lanes.\n\n{}",
-                     LaneCount(tables), table.Markdown());
+  return fmt::format("Table 1: speedup results for B4PC5, {}.\n\n{}",
+                     LanesText(tables), table.Markdown());
 }
 
 std::string Table2Text(const Reproduction& r, const LaneTables& tables) {
@@ -163,19 +175,38 @@ std::string Table2Text(const Reproduction& r, const LaneTables& tables) {
     table.AddRow(std::move(cells));
   }
   return fmt::format(
-      "Table 2: accuracy performance for various configurations, {} "
-      "lanes.\n\n{}",
-      LaneCount(tables), table.Markdown());
+      "Table 2: accuracy performance for various configurations, {}.\n\n{}",
+      LanesText(tables), table.Markdown());
 }
 
 std::string LiftText(const LaneTables& tables) {
   const LiftRun& lift = tables.lift;
   return fmt::format(
-      "The one-second lift, B1PC5, one processor, {} lanes, DOPRI5 start "
+      "The one-second lift, B1PC5, one processor, {}, DOPRI5 start "
       "included: {} us,\n{} steps, error {:.2g} m, {:.0f} times faster than "
       "real time.\n",
-      LaneCount(tables), MicroWithInterval(lift.seconds), lift.steps,
+      LanesText(tables), MicroWithInterval(lift.seconds), lift.steps,
       lift.error, 1 / Median(lift.seconds));
+}
+
+// What two tasks gain that never wait for each other.
+std::string CeilingText(const Reproduction& r) {
+  std::string text;
+  for (const Cost& one : r.costs) {
+    for (const Cost& two : r.costs) {
+      if (one.name != "evaluation" || two.with != one.with ||
+          two.name != "evaluation, two at once") {
+        continue;
+      }
+      const Gain half = GainOf(one.seconds, two.seconds);
+      text += fmt::format(
+          "Two tasks that never wait for each other gain {:.2f} [{:.2f}, "
+          "{:.2f}] on this machine ({}).\n",
+          2 * half.value, 2 * half.interval.low, 2 * half.interval.high,
+          one.with);
+    }
+  }
+  return text;
 }
 
 std::string CostText(const Reproduction& r) {
@@ -185,7 +216,7 @@ std::string CostText(const Reproduction& r) {
   }
   return "What a call costs (all chains at one point; synchronization without "
          "work between).\n\n" +
-         table.Markdown();
+         table.Markdown() + "\n" + CeilingText(r);
 }
 
 nlohmann::json RowJson(const Reproduction& r, const LaneTables& tables,
@@ -200,7 +231,7 @@ nlohmann::json RowJson(const Reproduction& r, const LaneTables& tables,
                          {"seconds", row.seconds},
                          {"S_a_steps", StepSpeedup(r, row.block_size)}};
   if (row.measured()) {
-    const Speedup S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
+    const Gain S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
     const double S_a = ClockSpeedup(tables, row.block_size);
     json["T"] = MedianT(row);
     json["S_p"] = S_p.value;
@@ -241,9 +272,11 @@ std::string ReportText(const Reproduction& r) {
   text +=
       "\nT: median over the repetitions (interleaved), at the steps for 1e-6 "
       "m; "
-      "brackets: 95 %\nintervals. S_p against the same method serial. states: "
-      "bit for bit those of the serial\nprogram, or not. Paper: CRAY "
-      "Y-MP8/864.\n\n";
+      "brackets: 95 %\nintervals. S_p, S_a clock: medians of the ratios of "
+      "runs "
+      "next to each other.\nstates: bit for bit those of the serial program, "
+      "or "
+      "not. Paper: CRAY Y-MP8/864.\n\n";
   for (const LaneTables& tables : r.lanes) text += LiftText(tables);
   return text + "\n" + CostText(r);
 }
@@ -277,7 +310,7 @@ std::string ReportCsv(const Reproduction& r) {
       const auto number = [](double x) { return fmt::format("{:.6g}", x); };
       const std::string S_a_steps = number(StepSpeedup(r, row.block_size));
       if (row.measured()) {
-        const Speedup S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
+        const Gain S_p = SpeedupOf(SerialRow(tables, row.block_size), row);
         const Interval range = MedianInterval(T(row));
         const double S_a = ClockSpeedup(tables, row.block_size);
         for (const double x : {MedianT(row), range.low, range.high, S_p.value,

@@ -79,7 +79,7 @@ TEST(Table2Rows, HaveTheMachinesOwnBehindTheSerialOnes) {
 
 TEST(Report, TextHasBothTablesAtBothWidths) {
   const std::string text = ReportText(Once());
-  for (const char* part : {"Table 1", "Table 2", "4 lanes", "1 lanes", "S_T",
+  for (const char* part : {"Table 1", "Table 2", "4 lanes", "1 lane", "S_T",
                            "BARSYNC", "compiler:", "placement:"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
