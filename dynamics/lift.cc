@@ -1,5 +1,6 @@
 #include "dynamics/lift.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "dynamics/puma560.h"
