@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <initializer_list>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,14 @@ struct WaitOptions {
     return {.kind = kind, .hold_time = std::chrono::microseconds(hold_time_us)};
   }
 };
+
+// What is called by its Name().
+template <typename Value>
+std::map<std::string, Value> ByName(std::initializer_list<Value> values) {
+  std::map<std::string, Value> named;
+  for (const Value value : values) named.emplace(Name(value), value);
+  return named;
+}
 
 // An option whose values have names. Names only: CLI11's own transformers also
 // take the numbers behind an enumeration, so that "--figure 2" would be
@@ -65,9 +74,8 @@ CLI::Option* AddFile(CLI::App* app, const std::string& name, std::string* path,
 void AddWaitOptions(CLI::App* app, WaitOptions* wait) {
   AddChoice<macrotask::WaitKind>(
       app, "--wait", &wait->kind,
-      {{"block", macrotask::WaitKind::kBlock},
-       {"spin", macrotask::WaitKind::kSpin},
-       {"hold", macrotask::WaitKind::kHold}},
+      ByName({macrotask::WaitKind::kBlock, macrotask::WaitKind::kSpin,
+              macrotask::WaitKind::kHold}),
       "How a task waits: block sleeps (pthread barriers, condition variables), "
       "spin asks again and again, hold (the default) spins for the hold time, "
       "then sleeps");
@@ -132,11 +140,8 @@ void SimulateCommand::Add(CLI::App* app) {
                   "second of the lift")
       ->capture_default_str();
   AddChoice<Figure>(app, "--figure", &options.figure,
-                    {{"serial", Figure::kSerial},
-                     {"figure2", Figure::kFigure2},
-                     {"figure3", Figure::kFigure3},
-                     {"figure7", Figure::kFigure7},
-                     {"figure8", Figure::kFigure8}},
+                    ByName({Figure::kSerial, Figure::kFigure2, Figure::kFigure3,
+                            Figure::kFigure7, Figure::kFigure8}),
                     "Task structure: one of the paper's figures, or the serial "
                     "program; figure8 (the default) can do all the others do");
   app->add_option("--chain-tasks", options.partition.chain_tasks,

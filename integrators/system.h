@@ -50,8 +50,8 @@ concept ChainSystem = requires(const S& system, int i) {
 };
 
 // The same, erased: so that the figures are ordinary functions, compiled once,
-// and give the same bits to every caller. One indirect call a block of Figure
-// 1, about a nanosecond in a microsecond.
+// and give the same bits to every caller. It costs one indirect call a block of
+// Figure 1.
 class Evaluation {
  public:
   virtual ~Evaluation() = default;

@@ -30,13 +30,6 @@ std::string_view Name(Figure figure) {
   return "";
 }
 
-std::optional<Figure> ParseFigure(std::string_view name) {
-  for (const auto& [value, known] : kNames) {
-    if (known == name) return value;
-  }
-  return std::nullopt;
-}
-
 RmaSharing RmaSharingOf(Figure figure) {
   return figure == Figure::kFigure2 ? RmaSharing::kSerial
                                     : RmaSharing::kRedundant;

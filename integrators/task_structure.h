@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "integrators/block_run.h"
@@ -14,7 +13,6 @@ namespace integrators {
 enum class Figure { kSerial, kFigure2, kFigure3, kFigure7, kFigure8 };
 
 std::string_view Name(Figure figure);  // "serial", "figure2", ...
-std::optional<Figure> ParseFigure(std::string_view name);
 
 // Whether the figure computes RMA once or in every chain task.
 RmaSharing RmaSharingOf(Figure figure);
