@@ -10,6 +10,9 @@ namespace macrotask {
 // process for kAnyProcessor.
 cpu_set_t AffinityFor(int processor);
 
+// Internal: how often SetMaxProcessors() has changed what AffinityFor() says.
+int AffinityVersion();
+
 // Internal: lets the calling pthread run on AffinityFor(processor) only. Says
 // whether the system agreed; a processor may have been taken away from this
 // process since NumProcessors() looked.

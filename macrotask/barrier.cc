@@ -4,7 +4,9 @@
 #include <string>
 
 #include "macrotask/check.h"
-#include "macrotask/spin_then_sleep.h"
+#include "macrotask/program_end.h"
+#include "macrotask/published_wait.h"
+#include "macrotask/trace_point.h"
 
 namespace macrotask {
 namespace {
@@ -17,36 +19,75 @@ int CheckNumTasks(int num_tasks) {
 
 }  // namespace
 
-BlockingBarrier::BlockingBarrier(int num_tasks) {
+BlockingBarrier::BlockingBarrier(int num_tasks, std::uint32_t number)
+    : num_tasks_(static_cast<std::uint64_t>(num_tasks)),
+      waited_{ObjectKind::kBarrier, number} {
   CheckPthread(pthread_barrier_init(&barrier_, nullptr,
                                     static_cast<unsigned>(num_tasks)),
                "pthread_barrier_init");
 }
 
+BlockingBarrier::~BlockingBarrier() {
+  // It would wait for those who sleep.
+  if (!program_stops) pthread_barrier_destroy(&barrier_);
+}
+
 void BlockingBarrier::Sync() {
-  const auto never_seen_complete = [] { return false; };
-  SpinThenSleep(WaitPolicy::Block(), never_seen_complete, [&] {
+  const std::uint64_t arrivals =
+      arrivals_.fetch_add(1, std::memory_order_relaxed);
+  const std::uint64_t end_of_phase = (arrivals / num_tasks_ + 1) * num_tasks_;
+  // Relaxed, here and above: the barrier orders the data.
+  const auto is_over = [&] {
+    return arrivals_.load(std::memory_order_relaxed) >= end_of_phase;
+  };
+  const auto wait = [&] {
     const int error = pthread_barrier_wait(&barrier_);
-    if (error == PTHREAD_BARRIER_SERIAL_THREAD) return;  // the last to arrive
+    if (error == PTHREAD_BARRIER_SERIAL_THREAD) return;  // one of them
     CheckPthread(error, "pthread_barrier_wait");
-  });
+  };
+  // The last to arrive sleeps no more than the others by now.
+  if (arrivals + 1 == end_of_phase) return wait();
+  const PublishedWait published(waited_, is_over);
+  published.BeginSleep();
+  wait();
+  published.EndSleep();
+}
+
+int BlockingBarrier::num_waiting() const {
+  return static_cast<int>(arrivals_.load(std::memory_order_relaxed) %
+                          num_tasks_);
 }
 
 Barrier::Barrier(int num_tasks, WaitPolicy policy)
-    : num_tasks_(CheckNumTasks(num_tasks)) {
+    : num_tasks_(CheckNumTasks(num_tasks)),
+      number_(NextNumber(ObjectKind::kBarrier)) {
   if (policy.kind == WaitKind::kBlock) {
-    algorithm_.emplace<BlockingBarrier>(num_tasks);
+    algorithm_.emplace<BlockingBarrier>(num_tasks, number_);
   } else {
-    algorithm_.emplace<CountingBarrier>(num_tasks, policy);
+    algorithm_.emplace<CountingBarrier>(num_tasks, policy, number_);
   }
 }
 
-void Barrier::Sync() {
+inline void Barrier::SyncUntraced() {
   if (auto* counting = std::get_if<CountingBarrier>(&algorithm_)) {
     counting->Sync();
   } else {
     std::get<BlockingBarrier>(algorithm_).Sync();
   }
+}
+
+void Barrier::Sync() {
+  RecordAround(TraceClass::kEvents, TraceAction::kBarrierSync,
+               TraceAction::kBarrierSyncEnd,
+               TraceData(number_, static_cast<std::uint64_t>(num_tasks_)),
+               [this] { SyncUntraced(); });
+}
+
+int Barrier::num_waiting() const {
+  if (auto* counting = std::get_if<CountingBarrier>(&algorithm_)) {
+    return counting->num_waiting();
+  }
+  return std::get<BlockingBarrier>(algorithm_).num_waiting();
 }
 
 }  // namespace macrotask

@@ -2,25 +2,36 @@
 
 #include <pthread.h>
 
+#include <atomic>
+#include <cstdint>
 #include <variant>
 
 #include "macrotask/counting_barrier.h"
 #include "macrotask/wait_policy.h"
+#include "macrotask/waited_object.h"
 
 namespace macrotask {
 
 // Internal: pthread_barrier_t with its errors checked, for WaitPolicy::Block().
 class BlockingBarrier {
  public:
-  explicit BlockingBarrier(int num_tasks);
-  ~BlockingBarrier() { pthread_barrier_destroy(&barrier_); }
+  BlockingBarrier(int num_tasks, std::uint32_t number);
+  ~BlockingBarrier();
   BlockingBarrier(const BlockingBarrier&) = delete;
   BlockingBarrier& operator=(const BlockingBarrier&) = delete;
 
   void Sync();
 
+  // Number of tasks that have arrived and whose phase is not complete.
+  int num_waiting() const;
+
  private:
+  const std::uint64_t num_tasks_;
+  const WaitedObject waited_;
   pthread_barrier_t barrier_;
+  // Arrivals since the beginning, for those who look from outside: the
+  // pthread_barrier_t does not say whether a wait is over.
+  std::atomic<std::uint64_t> arrivals_{0};
 };
 
 // Holds every task that calls Sync() until `num_tasks` tasks have called it,
@@ -51,13 +62,22 @@ class Barrier {
 
   int num_tasks() const { return num_tasks_; }
 
+  // Number of tasks that are in Sync() now and wait for others.
+  int num_waiting() const;
+
+  // Of this barrier in lists and traces: 1, 2, ... in order of construction.
+  std::uint32_t number() const { return number_; }
+
  private:
   // One alternative per algorithm, one file per alternative; the constructor
   // chooses, by policy and number of tasks.
   using Algorithm =
       std::variant<std::monostate, BlockingBarrier, CountingBarrier>;
 
+  void SyncUntraced();
+
   const int num_tasks_;
+  const std::uint32_t number_;
   Algorithm algorithm_;
 };
 

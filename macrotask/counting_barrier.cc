@@ -47,7 +47,13 @@ void CountingBarrier::Sync() {
     // Acquire: partner of the release of every arrival of this phase.
     return ArrivalsOf(word_.load(std::memory_order_acquire)) >= end_of_phase;
   };
-  SpinThenSleep(policy_, phase_complete, [&] { SleepUntil(end_of_phase); });
+  SpinThenSleep(policy_, waited_, phase_complete,
+                [&] { SleepUntil(end_of_phase); });
+}
+
+int CountingBarrier::num_waiting() const {
+  return static_cast<int>(ArrivalsOf(word_.load(std::memory_order_relaxed)) %
+                          num_tasks_);
 }
 
 void CountingBarrier::WakeSleepers() {

@@ -6,6 +6,7 @@
 #include "macrotask/cache_line.h"
 #include "macrotask/mutex.h"
 #include "macrotask/wait_policy.h"
+#include "macrotask/waited_object.h"
 
 namespace macrotask {
 
@@ -15,13 +16,18 @@ namespace macrotask {
 // contract as Barrier.
 class CountingBarrier {
  public:
-  // Requires: `num_tasks` >= 1.
-  CountingBarrier(int num_tasks, const WaitPolicy& policy)
-      : num_tasks_(static_cast<std::uint64_t>(num_tasks)), policy_(policy) {}
+  // Requires: `num_tasks` >= 1. `number` is that of the Barrier.
+  CountingBarrier(int num_tasks, const WaitPolicy& policy, std::uint32_t number)
+      : num_tasks_(static_cast<std::uint64_t>(num_tasks)),
+        policy_(policy),
+        waited_{ObjectKind::kBarrier, number} {}
   CountingBarrier(const CountingBarrier&) = delete;
   CountingBarrier& operator=(const CountingBarrier&) = delete;
 
   void Sync();
+
+  // Number of tasks that have arrived and whose phase is not complete.
+  int num_waiting() const;
 
  private:
   void WakeSleepers();
@@ -32,6 +38,7 @@ class CountingBarrier {
 
   alignas(kCacheLine) const std::uint64_t num_tasks_;
   const WaitPolicy policy_;
+  const WaitedObject waited_;
   Mutex mutex_;
   Condition wake_;
 };

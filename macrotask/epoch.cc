@@ -61,9 +61,10 @@ void Epoch::AdvanceIf(std::uint64_t parity) {
   if (next != word && (word & kSomebodySleeps)) WakeSleepers(EpochOf(next));
 }
 
-void Epoch::AwaitPast(std::uint64_t seen, const WaitPolicy& policy) {
+void Epoch::AwaitPast(std::uint64_t seen, const WaitPolicy& policy,
+                      const WaitedObject& what) {
   SpinThenSleep(
-      policy, [&] { return Read() > seen; }, [&] { SleepPast(seen); });
+      policy, what, [&] { return Read() > seen; }, [&] { SleepPast(seen); });
 }
 
 void Epoch::WakeSleepers(std::uint64_t epoch) {

@@ -6,6 +6,7 @@
 #include "macrotask/cache_line.h"
 #include "macrotask/mutex.h"
 #include "macrotask/wait_policy.h"
+#include "macrotask/waited_object.h"
 
 namespace macrotask {
 
@@ -42,9 +43,11 @@ class alignas(kCacheLine) Epoch {
   void AdvanceIfOdd() { AdvanceIf(1); }
 
   // Returns when the epoch is greater than `seen`, at once if it is already.
+  // `what` is what the caller says it waits for.
   // Requires: `seen` <= Read(), one must have seen it. (An advance to `seen`
   // itself would use up the bit by which a sleeper calls for the next one.)
-  void AwaitPast(std::uint64_t seen, const WaitPolicy& policy);
+  void AwaitPast(std::uint64_t seen, const WaitPolicy& policy,
+                 const WaitedObject& what = {});
 
  private:
   void AdvanceIf(std::uint64_t parity);

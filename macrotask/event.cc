@@ -10,13 +10,23 @@ bool IsPosted(std::uint64_t epoch) { return epoch % 2 == 1; }
 }  // namespace
 
 void Event::Wait() {
-  // To wait for the epoch to pass, rather than for the event to be posted, is
-  // what makes Post() and Clear() in a row release a task that looked at
-  // neither in between.
-  const std::uint64_t seen = epoch_.Read();
-  if (!IsPosted(seen)) epoch_.AwaitPast(seen, policy_);
+  RecordAround(TraceClass::kEvents, TraceAction::kEventWait,
+               TraceAction::kEventWaitEnd, TraceData(number()), [this] {
+                 // To wait for the epoch to pass, rather than for the event to
+                 // be posted, is what makes Post() and Clear() in a row release
+                 // a task that looked at neither in between.
+                 const std::uint64_t seen = epoch_.Read();
+                 if (IsPosted(seen)) return;
+                 epoch_.AwaitPast(seen, policy_, waited_);
+               });
 }
 
-bool Event::Test() const { return IsPosted(epoch_.Read()); }
+bool Event::Test() const {
+  const bool posted = IsPosted(epoch_.Read());
+  RecordIf(TraceClass::kEvents,
+           posted ? TraceAction::kEventTest : TraceAction::kEventTestClear,
+           TraceData(number(), 1));
+  return posted;
+}
 
 }  // namespace macrotask

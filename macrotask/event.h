@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+
 #include "macrotask/epoch.h"
+#include "macrotask/trace_point.h"
 #include "macrotask/wait_policy.h"
+#include "macrotask/waited_object.h"
 
 namespace macrotask {
 
@@ -29,21 +33,33 @@ class Event {
   explicit Event(WaitPolicy policy = {}) : policy_(policy) {}
 
   // Posts the event and wakes every task that waits. Harmless twice.
-  void Post() { epoch_.AdvanceIfEven(); }
+  void Post() {
+    RecordIf(TraceClass::kEvents, TraceAction::kEventPost, TraceData(number()));
+    epoch_.AdvanceIfEven();
+  }
 
   // Returns when the event is posted, at once if it is. Never clears it.
   void Wait();
 
   // Clears the event. Harmless twice. Tasks that a post has released stay
   // released.
-  void Clear() { epoch_.AdvanceIfOdd(); }
+  void Clear() {
+    RecordIf(TraceClass::kEvents, TraceAction::kEventClear,
+             TraceData(number()));
+    epoch_.AdvanceIfOdd();
+  }
 
   // True iff the event is posted.
   bool Test() const;
 
+  // Of this event in lists and traces: 1, 2, ... in order of construction.
+  std::uint32_t number() const { return waited_.number; }
+
  private:
   Epoch epoch_;  // even: cleared, odd: posted
   const WaitPolicy policy_;
+  const WaitedObject waited_{ObjectKind::kEvent,
+                             NextNumber(ObjectKind::kEvent)};
 };
 
 }  // namespace macrotask

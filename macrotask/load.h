@@ -3,21 +3,31 @@
 #include <atomic>
 
 #include "macrotask/cache_line.h"
-#include "macrotask/placement.h"
 #include "macrotask/wait_policy.h"
 
 namespace macrotask {
 
-// Internal: the tasks that want a processor now, the initial task included. A
-// hint that chooses between ways to wait, each of which is right: relaxed
-// everywhere, publishes nothing.
-alignas(kCacheLine) inline constinit std::atomic<int> live_tasks{1};
+// Internal: how crowded the processors are. A hint that chooses between ways to
+// wait, each of which is right: relaxed everywhere, publishes nothing.
+struct alignas(kCacheLine) Load {
+  // Tasks that want a processor now, the initial task included.
+  std::atomic<int> num_tasks{1};
+  // NumProcessors(), on the same line for those who compare. 0, hence crowded,
+  // until the library is loaded.
+  std::atomic<int> num_processors{0};
+};
+inline constinit Load load;
 
-inline void EnterLoad() { live_tasks.fetch_add(1, std::memory_order_relaxed); }
-inline void LeaveLoad() { live_tasks.fetch_sub(1, std::memory_order_relaxed); }
+inline void EnterLoad() {
+  load.num_tasks.fetch_add(1, std::memory_order_relaxed);
+}
+inline void LeaveLoad() {
+  load.num_tasks.fetch_sub(1, std::memory_order_relaxed);
+}
 
 inline bool MoreTasksThanProcessors() {
-  return live_tasks.load(std::memory_order_relaxed) > NumProcessors();
+  return load.num_tasks.load(std::memory_order_relaxed) >
+         load.num_processors.load(std::memory_order_relaxed);
 }
 
 // Internal: the caller is no live task for the length of a block in which it

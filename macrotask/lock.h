@@ -6,6 +6,7 @@
 #include "macrotask/cache_line.h"
 #include "macrotask/mutex.h"
 #include "macrotask/wait_policy.h"
+#include "macrotask/waited_object.h"
 
 namespace macrotask {
 
@@ -49,21 +50,34 @@ class Lock {
   // Number of tasks that wait in On() now.
   int num_waiting() const;
 
+  // True iff some task holds the lock.
+  bool is_set() const;
+
+  // The number of the task that took the lock last if it is set; 0 if it is
+  // clear, or if a pthread took it that is no task. Any task may unlock, so
+  // that this is a hint to whom to ask.
+  std::uint32_t holder() const;
+
+  // Of this lock in lists and traces: 1, 2, ... in order of construction.
+  std::uint32_t number() const { return number_; }
+
  private:
   struct Waiter;
 
   bool TryOn();
+  void OnUntraced();
   bool Enqueue(Waiter& self);
 
-  // 0 clear, 1 set, 2 set and somebody is queued. On a line of its own, because
-  // tasks spin on it.
-  alignas(kCacheLine) std::atomic<std::uint32_t> state_{0};
+  // 0 clear; else set: holder << 2 | somebody_is_queued << 1 | 1. On a line of
+  // its own, because tasks spin on it.
+  alignas(kCacheLine) std::atomic<std::uint64_t> state_{0};
 
   alignas(kCacheLine) mutable Mutex mutex_;  // guards the queue
   Waiter* head_ = nullptr;
   Waiter* tail_ = nullptr;
   int num_waiting_ = 0;
   const WaitPolicy policy_;
+  const std::uint32_t number_ = NextNumber(ObjectKind::kLock);
 };
 
 }  // namespace macrotask

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "macrotask/check.h"
+#include "macrotask/program_end.h"
 
 namespace macrotask {
 
@@ -13,7 +14,10 @@ class Mutex {
   Mutex() {
     CheckPthread(pthread_mutex_init(&mutex_, nullptr), "pthread_mutex_init");
   }
-  ~Mutex() { pthread_mutex_destroy(&mutex_); }
+  ~Mutex() {
+    // Those who sleep would come back to it.
+    if (!program_stops) pthread_mutex_destroy(&mutex_);
+  }
   Mutex(const Mutex&) = delete;
   Mutex& operator=(const Mutex&) = delete;
 
@@ -44,7 +48,10 @@ class Condition {
   Condition() {
     CheckPthread(pthread_cond_init(&condition_, nullptr), "pthread_cond_init");
   }
-  ~Condition() { pthread_cond_destroy(&condition_); }
+  ~Condition() {
+    // It would wait for those who sleep.
+    if (!program_stops) pthread_cond_destroy(&condition_);
+  }
   Condition(const Condition&) = delete;
   Condition& operator=(const Condition&) = delete;
 

@@ -3,40 +3,41 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <vector>
 
 #include "macrotask/affinity.h"
+#include "macrotask/load.h"
 
 namespace macrotask {
 namespace {
 
-struct Processors {
-  cpu_set_t mask;
-  std::vector<int> numbers;  // (NumProcessors()) ascending
-};
-
-Processors AskProcessors() {
-  Processors processors;
+// Ascending.
+std::vector<int> AskProcessors() {
+  std::vector<int> processors;
   // A machine of more than CPU_SETSIZE processors refuses the fixed-size mask:
   // there we know of processor 0 only, and use it.
-  CPU_ZERO(&processors.mask);
-  if (sched_getaffinity(0, sizeof processors.mask, &processors.mask) != 0) {
-    CPU_SET(0, &processors.mask);
-  }
-  for (int number = 0; number < CPU_SETSIZE; ++number) {
-    if (CPU_ISSET(number, &processors.mask)) {
-      processors.numbers.push_back(number);
-    }
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  if (sched_getaffinity(0, sizeof mask, &mask) != 0) CPU_SET(0, &mask);
+  for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
+    if (CPU_ISSET(processor, &mask)) processors.push_back(processor);
   }
   return processors;
 }
 
-// Never destroyed, because tasks may outlive the static objects.
-const Processors& TheProcessors() {
-  static const Processors* processors = new Processors(AskProcessors());
+// All that the process may use; never destroyed, because tasks may outlive the
+// static objects.
+const std::vector<int>& TheProcessors() {
+  static const auto* processors = new std::vector<int>(AskProcessors());
   return *processors;
 }
+
+std::atomic<int> affinity_version{0};
+
+[[maybe_unused]] const int asked_when_loaded = NumProcessors();
 
 std::string Count(int number, const std::string& noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
@@ -44,11 +45,30 @@ std::string Count(int number, const std::string& noun) {
 
 }  // namespace
 
-int NumProcessors() { return static_cast<int>(TheProcessors().numbers.size()); }
+int NumProcessors() {
+  int number = load.num_processors.load(std::memory_order_relaxed);
+  if (number > 0) return number;
+  number = static_cast<int>(TheProcessors().size());
+  load.num_processors.store(number, std::memory_order_relaxed);
+  return number;
+}
+
+void SetMaxProcessors(int num_processors) {
+  if (num_processors < 1) {
+    throw std::invalid_argument("at most " + std::to_string(num_processors) +
+                                " processors: expected 1 or more");
+  }
+  load.num_processors.store(
+      std::min(num_processors, static_cast<int>(TheProcessors().size())),
+      std::memory_order_relaxed);
+  affinity_version.fetch_add(1, std::memory_order_relaxed);
+  MoveCallerTo(kAnyProcessor);
+}
 
 bool IsUsable(int processor) {
-  return processor >= 0 && processor < CPU_SETSIZE &&
-         CPU_ISSET(processor, &TheProcessors().mask);
+  const auto& usable = TheProcessors();
+  const auto end = usable.begin() + NumProcessors();
+  return std::find(usable.begin(), end, processor) != end;
 }
 
 Placement::Placement(int num_tasks)
@@ -61,7 +81,7 @@ Placement::Placement(int num_tasks)
 
 int Placement::processor(int task) const {
   if (!pinned_) return kAnyProcessor;
-  return TheProcessors().numbers.at(static_cast<std::size_t>(task));
+  return TheProcessors().at(static_cast<std::size_t>(task));
 }
 
 std::string Placement::ToString() const {
@@ -79,11 +99,20 @@ std::string Placement::ToString() const {
 }
 
 cpu_set_t AffinityFor(int processor) {
-  if (processor == kAnyProcessor) return TheProcessors().mask;
-  cpu_set_t only;
-  CPU_ZERO(&only);
-  CPU_SET(processor, &only);
-  return only;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (processor != kAnyProcessor) {
+    CPU_SET(processor, &set);
+    return set;
+  }
+  for (int i = 0; i < NumProcessors(); ++i) {
+    CPU_SET(TheProcessors()[static_cast<std::size_t>(i)], &set);
+  }
+  return set;
+}
+
+int AffinityVersion() {
+  return affinity_version.load(std::memory_order_relaxed);
 }
 
 bool MoveCallerTo(int processor) {

@@ -8,8 +8,16 @@ namespace macrotask {
 inline constexpr int kAnyProcessor = -1;
 
 // Number of processors that this process was allowed to use when the library
-// first asked (its affinity mask, not the machine). At least 1. Thread-safe.
+// first asked (its affinity mask, not the machine), or the maximum set since.
+// At least 1. Thread-safe.
 int NumProcessors();
+
+// Uses only the first `num_processors` of these from now on, for pthreads that
+// start a task later and for the caller; fewer if there are fewer. Throws
+// std::invalid_argument if `num_processors` < 1.
+//
+// Cray name: MAXCPU, a keyword of TSKTUNE.
+void SetMaxProcessors(int num_processors);
 
 // True iff `processor` is one of those NumProcessors() counts. Thread-safe.
 bool IsUsable(int processor);

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "macrotask/load.h"
+#include "macrotask/published_wait.h"
 #include "macrotask/wait_policy.h"
 
 namespace macrotask {
@@ -23,43 +24,58 @@ inline void Pause() {
 #endif
 }
 
+// Internal: whether it is `done()` within the time of one look at the clock.
+template <typename Done>
+bool SpinBriefly(const Done& done) {
+  for (int i = 0; i < kPausesPerLook; ++i) {
+    if (done()) return true;
+    Pause();
+  }
+  return false;
+}
+
 // Internal: spins until `done()`, as `policy` allows, and says whether it was
 // done.
 template <typename Done>
-bool SpinUntil(const WaitPolicy& policy, const Done& done) {
+bool SpinUntil(const WaitPolicy& policy, const PublishedWait& wait,
+               const Done& done) {
   using Clock = std::chrono::steady_clock;
+  constexpr int kLooksPerSearch = 4096;  // for a deadlock: 1.6 ms or more
   const bool may_sleep = policy.kind != WaitKind::kSpin;
-  Clock::time_point start;
-  for (int looks = 0;; ++looks) {
+  const Clock::time_point start =
+      may_sleep ? Clock::now() : Clock::time_point();
+  for (int looks = 1;; ++looks) {
     // Too few processors: whoever will make it `done()` may be waiting for
     // ours.
     const bool crowded = MoreTasksThanProcessors();
     if (crowded && may_sleep) return false;
     if (crowded) sched_yield();
-    for (int i = 0; i < (crowded ? 1 : kPausesPerLook); ++i) {
-      if (done()) return true;
-      Pause();
-    }
-    if (!may_sleep) continue;
-    // The first look only starts the clock: short waits never read it.
-    const Clock::time_point now = Clock::now();
-    if (looks == 0) start = now;
-    if (now - start >= policy.hold_time) return false;
+    if (crowded ? done() : SpinBriefly(done)) return true;
+    if (may_sleep && Clock::now() - start >= policy.hold_time) return false;
+    if (looks % kLooksPerSearch == 0) wait.Look();
   }
 }
 
-// Internal: the one way in which a task of this library waits. Returns once
+// Internal: the one way in which a task of this library waits, but for the
+// pthread_barrier_t of BlockingBarrier. Returns once
 // `done()` is true or `sleep()` has returned; `sleep()` must return only when
-// the wait is over, and is called at most once.
+// the wait is over, and is called at most once. Once `done()` is true it must
+// stay true, whoever asks. `what` is what the task says it waits for.
 //
-// Whatever a program wants to know about waiting tasks (a trace, a deadlock) or
-// to do with their processor (run another task on it) belongs here.
+// A short wait costs nothing but the wait; a long one is published, so that a
+// deadlock can be found.
 template <typename Done, typename Sleep>
-void SpinThenSleep(const WaitPolicy& policy, const Done& done,
-                   const Sleep& sleep) {
+void SpinThenSleep(const WaitPolicy& policy, const WaitedObject& what,
+                   const Done& done, const Sleep& sleep) {
   if (done()) return;
-  if (policy.kind != WaitKind::kBlock && SpinUntil(policy, done)) return;
+  const bool spins =
+      policy.kind != WaitKind::kBlock && !MoreTasksThanProcessors();
+  if (spins && SpinBriefly(done)) return;
+  const PublishedWait wait(what, done);
+  if (policy.kind != WaitKind::kBlock && SpinUntil(policy, wait, done)) return;
+  wait.BeginSleep();
   sleep();
+  wait.EndSleep();
 }
 
 }  // namespace macrotask

@@ -9,6 +9,9 @@
 
 #include "macrotask/affinity.h"
 #include "macrotask/load.h"
+#include "macrotask/program_end.h"
+#include "macrotask/task_registry.h"
+#include "macrotask/trace_point.h"
 
 namespace macrotask {
 namespace {
@@ -69,7 +72,7 @@ std::vector<int> ProcessorsOf(const Placement& placement) {
   std::vector<int> processors(static_cast<std::size_t>(placement.num_tasks()),
                               kAnyProcessor);
   // Other tasks would share the processors and be as many more in their way.
-  const bool alone = live_tasks.load(std::memory_order_relaxed) == 1;
+  const bool alone = load.num_tasks.load(std::memory_order_relaxed) == 1;
   for (int task = 0; alone && task < placement.num_tasks(); ++task) {
     processors[static_cast<std::size_t>(task)] = placement.processor(task);
   }
@@ -94,16 +97,28 @@ Task::Task(std::function<void()> body, TaskOptions options)
   AcquireForTask(options.processor)->Start(job_);
 }
 
-Task::~Task() { job_.Await(); }
+Task::~Task() {
+  // It may be one of those in a deadlock.
+  if (!program_stops) job_.Await();
+}
 
 void Task::Wait() {
-  job_.Await();
+  RecordAround(TraceClass::kTasks, TraceAction::kTaskWait,
+               TraceAction::kTaskWaitEnd, TraceData(job_.number),
+               [this] { job_.Await(); });
   if (job_.failure) std::rethrow_exception(job_.failure);
 }
 
-bool Task::Test() const { return job_.done.Read() == 0; }
+bool Task::Test() const {
+  const bool runs = is_running();
+  RecordIf(TraceClass::kTasks, TraceAction::kTaskTest,
+           TraceData(job_.number, runs ? 1 : 0));
+  return runs;
+}
 
-std::uint64_t Task::Value() { return UserValueOfCaller(); }
+std::uint64_t Task::Value() {
+  return record_of_caller != nullptr ? record_of_caller->value() : 0;
+}
 
 void RunTasks(int num_tasks, const std::function<void(int)>& body,
               WaitPolicy wait) {
@@ -130,7 +145,9 @@ void RunTasks(int num_tasks, const std::function<void(int)>& body,
     failure = std::current_exception();
   }
   for (Job& job : jobs) {
-    job.Await();
+    RecordAround(TraceClass::kTasks, TraceAction::kTaskWait,
+                 TraceAction::kTaskWaitEnd, TraceData(job.number),
+                 [&] { job.Await(); });
     if (!failure) failure = job.failure;
   }
   if (failure) std::rethrow_exception(failure);

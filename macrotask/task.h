@@ -52,9 +52,15 @@ class Task {
   // True iff the body has not ended yet.
   bool Test() const;
 
+  // The same without an entry in the history trace.
+  bool is_running() const { return job_.done.Read() == 0; }
+
   // The user value of the calling task: TaskOptions::value, 0 in the initial
   // task.
   static std::uint64_t Value();
+
+  // Of this task in lists and traces; the initial task has 1.
+  std::uint32_t number() const { return job_.number; }
 
  private:
   Job job_;

@@ -1,28 +1,38 @@
 #include "macrotask/worker_pool.h"
 
+#include <limits.h>
+
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "macrotask/affinity.h"
+#include "macrotask/busy_time.h"
 #include "macrotask/check.h"
+#include "macrotask/deadlock.h"
 #include "macrotask/load.h"
+#include "macrotask/program_end.h"
+#include "macrotask/trace_point.h"
 
 namespace macrotask {
 namespace {
-
-constinit thread_local std::uint64_t user_value = 0;
 
 // pthread_attr_t that starts a pthread with the given affinity; otherwise it
 // would inherit that of its creator, which may be a pinned task.
 class PthreadAttributes {
  public:
-  explicit PthreadAttributes(int processor) {
+  PthreadAttributes(int processor, std::size_t stack_size) {
     CheckPthread(pthread_attr_init(&attributes_), "pthread_attr_init");
     const cpu_set_t affinity = AffinityFor(processor);
-    const int error =
+    int error =
         pthread_attr_setaffinity_np(&attributes_, sizeof affinity, &affinity);
+    if (error == 0 && stack_size != 0) {
+      error = pthread_attr_setstacksize(&attributes_, stack_size);
+    }
     if (error != 0) pthread_attr_destroy(&attributes_);
-    CheckPthread(error, "pthread_attr_setaffinity_np");
+    CheckPthread(error, "pthread_attr_t of a task");
   }
   ~PthreadAttributes() { pthread_attr_destroy(&attributes_); }
   PthreadAttributes(const PthreadAttributes&) = delete;
@@ -36,29 +46,38 @@ class PthreadAttributes {
 
 }  // namespace
 
-std::uint64_t UserValueOfCaller() { return user_value; }
-
 void Job::Await() {
   if (done.Read() == 1) return;
-  if (wait.kind == WaitKind::kSpin) return done.AwaitPast(0, wait);
+  const WaitedObject task = {ObjectKind::kTask, number};
+  if (wait.kind == WaitKind::kSpin) return done.AwaitPast(0, wait, task);
   const WaitPolicy policy = IdlePolicy(wait);
   const ScopedLeaveLoad no_live_task;
-  done.AwaitPast(0, policy);
+  done.AwaitPast(0, policy, task);
 }
 
-Worker::Worker(int processor) : processor_(processor) {
-  const PthreadAttributes attributes(processor);
+Worker::Worker(int processor, std::size_t stack_size)
+    : record_(TaskRegistry::TheOne().Acquire()),
+      stack_size_(stack_size),
+      processor_(processor) {
+  const PthreadAttributes attributes(processor, stack_size);
   CheckPthread(pthread_create(&pthread_, attributes.get(), &Main, this),
                "pthread_create");
 }
 
 void* Worker::Main(void* worker) {
-  static_cast<Worker*>(worker)->RunJobs();
+  auto* const self = static_cast<Worker*>(worker);
+  TaskRegistry::Adopt(self->record_);
+  NoteBusy(+1);
+  self->RunJobs();
+  NoteBusy(-1);
   return nullptr;
 }
 
 void Worker::Start(Job& job) noexcept {
   EnterLoad();
+  job.number = NextTaskNumber();
+  record_->SetReady(job.number, job.value);
+  RecordIf(TraceClass::kTasks, TraceAction::kTaskStart, TraceData(job.number));
   job_ = &job;
   given_.Advance();
 }
@@ -67,6 +86,7 @@ void Worker::Join() {
   job_ = nullptr;
   given_.Advance();
   CheckPthread(pthread_join(pthread_, nullptr), "pthread_join");
+  TaskRegistry::TheOne().Release(record_);
 }
 
 void Worker::RunJobs() {
@@ -80,15 +100,20 @@ void Worker::RunJobs() {
 
 // Returns how to wait for the next job.
 WaitPolicy Worker::Run(Job& job) {
-  if (processor_ != job.processor && MoveCallerTo(job.processor)) {
+  const int version = AffinityVersion();
+  if ((processor_ != job.processor || affinity_version_ != version) &&
+      MoveCallerTo(job.processor)) {
     processor_ = job.processor;
+    affinity_version_ = version;
   }
-  user_value = job.value;
+  record_->SetRunning(job.number);
+  RecordIf(TraceClass::kTasks, TraceAction::kTaskBegin, job.value);
   try {
     job.body();
   } catch (...) {
     job.failure = std::current_exception();
   }
+  RecordIf(TraceClass::kTasks, TraceAction::kTaskEnd, 0);
   const WaitPolicy idle = IdlePolicy(job.wait);
   LeaveLoad();
   // Before the job is done: whoever waits for it and then starts the next one
@@ -96,6 +121,8 @@ WaitPolicy Worker::Run(Job& job) {
   // therefore be given before this one is done; it waits in job_.
   WorkerPool::TheOne().Return(this);
   job.done.Advance();
+  record_->SetComplete();
+  DetectDeadlock();
   return idle;
 }
 
@@ -112,24 +139,47 @@ WorkerPool& WorkerPool::TheOne() {
 
 Worker* WorkerPool::Acquire(int processor) {
   if (Worker* const idle = TakeIdle(processor)) return idle;
-  auto made = std::make_unique<Worker>(processor);
+  std::size_t stack_size;
+  {
+    const MutexGuard guard(mutex_);
+    stack_size = stack_size_;
+  }
+  auto made = std::make_unique<Worker>(processor, stack_size);
   const MutexGuard guard(mutex_);
   ++num_workers_;
   return made.release();
 }
 
-// Returns an idle worker, the first on `processor` if there is one, or null.
+void WorkerPool::SetStackSize(std::size_t bytes) {
+  if (bytes != 0 && bytes < static_cast<std::size_t>(PTHREAD_STACK_MIN)) {
+    throw std::invalid_argument("a stack of " + std::to_string(bytes) +
+                                " bytes: expected at least " +
+                                std::to_string(PTHREAD_STACK_MIN));
+  }
+  const MutexGuard guard(mutex_);
+  stack_size_ = bytes;
+}
+
+// Returns an idle worker with the stack that is wanted now, the first on
+// `processor` if there is one, or null.
 Worker* WorkerPool::TakeIdle(int processor) {
   const MutexGuard guard(mutex_);
-  if (idle_ == nullptr) return nullptr;
-  Worker** place = &idle_;
-  while (*place != nullptr && (*place)->processor_ != processor) {
-    place = &(*place)->next_idle_;
+  Worker** taken = nullptr;
+  for (Worker** place = &idle_; *place != nullptr;
+       place = &(*place)->next_idle_) {
+    if ((*place)->stack_size_ != stack_size_) continue;
+    if (taken == nullptr) taken = place;
+    if ((*place)->processor_ != processor) continue;
+    taken = place;
+    break;
   }
-  if (*place == nullptr) place = &idle_;
-  Worker* const taken = *place;
-  *place = taken->next_idle_;
-  return taken;
+  return taken == nullptr ? nullptr
+                          : std::exchange(*taken, (*taken)->next_idle_);
+}
+
+Worker* WorkerPool::TakeAnyIdle() {
+  const MutexGuard guard(mutex_);
+  return idle_ == nullptr ? nullptr : std::exchange(idle_, idle_->next_idle_);
 }
 
 void WorkerPool::Return(Worker* worker) {
@@ -139,7 +189,8 @@ void WorkerPool::Return(Worker* worker) {
 }
 
 void WorkerPool::JoinIdle() {
-  while (Worker* const worker = TakeIdle(kAnyProcessor)) {
+  if (program_stops) return;  // It may be one of them that stops the program.
+  while (Worker* const worker = TakeAnyIdle()) {
     const std::unique_ptr<Worker> joined(worker);
     joined->Join();
     const MutexGuard guard(mutex_);

@@ -6,9 +6,11 @@
 #include <exception>
 #include <functional>
 
+#include "macrotask/affinity.h"
 #include "macrotask/epoch.h"
 #include "macrotask/mutex.h"
 #include "macrotask/placement.h"
+#include "macrotask/task_registry.h"
 #include "macrotask/wait_policy.h"
 
 namespace macrotask {
@@ -20,6 +22,7 @@ struct Job {
   WaitPolicy wait;                // of the tasks that wait for this one
   int processor = kAnyProcessor;  // where the body runs
   std::uint64_t value = 0;        // the user value, Task::Value() in the body
+  std::uint32_t number = 0;       // of the task; set by Worker::Start()
   std::exception_ptr failure;     // what the body threw; valid once done is 1
   Epoch done;                     // 0: not complete, 1: complete
 
@@ -27,15 +30,13 @@ struct Job {
   void Await();
 };
 
-// The user value of the calling task; 0 in pthreads that are no tasks.
-std::uint64_t UserValueOfCaller();
-
 // Internal: a pthread that runs one job after the other and holds its processor
 // for a while in between, so that the next one can start without a system call.
 class Worker {
  public:
-  // Creates the pthread, on `processor`. Throws std::system_error.
-  explicit Worker(int processor);
+  // Creates the pthread, on `processor` and with a stack of `stack_size` bytes
+  // (0: the system's default). Throws std::system_error.
+  Worker(int processor, std::size_t stack_size);
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
@@ -53,7 +54,10 @@ class Worker {
   WaitPolicy Run(Job& job);
 
   pthread_t pthread_;
-  int processor_;                // the affinity of the pthread now
+  TaskRecord* const record_;
+  const std::size_t stack_size_;
+  int processor_;  // the affinity of the pthread now,
+  int affinity_version_ = AffinityVersion();  // as this version has it
   Job* job_ = nullptr;           // written before given_, null: end
   Epoch given_;                  // number of jobs given
   Worker* next_idle_ = nullptr;  // guarded by the pool's mutex
@@ -71,6 +75,12 @@ class WorkerPool {
   // a new one. Throws std::system_error if the system refuses to create it.
   Worker* Acquire(int processor);
 
+  // Stack of the pthreads that tasks get from now on, in bytes; 0: the system's
+  // default. Throws std::invalid_argument if the system allows none so small.
+  //
+  // Cray name: STACKSZ, a keyword of TSKTUNE.
+  void SetStackSize(std::size_t bytes);
+
   // Makes an acquired worker idle.
   void Return(Worker* worker);
 
@@ -82,10 +92,12 @@ class WorkerPool {
 
  private:
   Worker* TakeIdle(int processor);
+  Worker* TakeAnyIdle();
 
   mutable Mutex mutex_;     // guards all below
   Worker* idle_ = nullptr;  // the last to become idle first: it still spins
   int num_workers_ = 0;
+  std::size_t stack_size_ = 0;
 };
 
 }  // namespace macrotask

@@ -1,0 +1,92 @@
+#include "macrotask/trace_ring.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+// The reader trusts record i if, after it has read it, fewer than i + capacity
+// + 1 records have been begun: nobody has then started to write over it. A slot
+// is stored with release and loaded with acquire so that whoever reads a part
+// of a newer record also sees that this one was begun.
+
+namespace macrotask {
+namespace {
+
+constexpr std::uint64_t kOneMore = std::uint64_t{1} << 32;
+
+bool IsTest(TraceAction action) {
+  return action == TraceAction::kLockTestSet ||
+         action == TraceAction::kEventTest ||
+         action == TraceAction::kEventTestClear;
+}
+
+std::uint64_t RestOf(const TraceRecord& record) {
+  return std::uint64_t{record.task} << 32 | std::uint64_t{record.cpu} << 16 |
+         static_cast<std::uint64_t>(record.action);
+}
+
+void Store(std::uint64_t& word, std::uint64_t value) {
+  // Release: partner of the acquire in Load().
+  std::atomic_ref<std::uint64_t>(word).store(value, std::memory_order_release);
+}
+
+std::uint64_t Load(std::uint64_t& word) {
+  // Acquire: partner of the release in Store().
+  return std::atomic_ref<std::uint64_t>(word).load(std::memory_order_acquire);
+}
+
+}  // namespace
+
+TraceRing::TraceRing(std::size_t capacity)
+    : mask_(capacity - 1),
+      slots_(static_cast<Slot*>(std::calloc(capacity, sizeof(Slot))),
+             &std::free) {
+  if (slots_ == nullptr) throw std::bad_alloc();
+}
+
+void TraceRing::Append(const TraceRecord& record) {
+  const std::uint64_t number = num_begun_.load(std::memory_order_relaxed);
+  if (record.action == last_action_ && IsTest(record.action) &&
+      record.task == last_task_ &&
+      record.object() == static_cast<std::uint32_t>(last_data_)) {
+    last_data_ += kOneMore;
+    Store(slots_[(number - 1) & mask_].data, last_data_);
+    return;
+  }
+  last_action_ = record.action;
+  last_task_ = record.task;
+  last_data_ = record.data;
+  num_begun_.store(number + 1, std::memory_order_relaxed);
+  Slot& slot = slots_[number & mask_];
+  Store(slot.clock, record.clock);
+  Store(slot.data, record.data);
+  Store(slot.rest, RestOf(record));
+  // Release: partner of the acquire in Read().
+  num_written_.store(number + 1, std::memory_order_release);
+}
+
+std::vector<TraceRecord> TraceRing::Read(std::uint64_t* num_lost) const {
+  const std::size_t capacity = mask_ + 1;
+  const std::uint64_t end = num_written_.load(std::memory_order_acquire);
+  const std::uint64_t begin = end > capacity ? end - capacity : 0;
+  std::vector<TraceRecord> records;
+  records.reserve(end - begin);
+  for (std::uint64_t i = begin; i < end; ++i) {
+    Slot& slot = slots_[i & mask_];
+    const std::uint64_t rest = Load(slot.rest);
+    records.push_back({Load(slot.clock), Load(slot.data),
+                       static_cast<std::uint32_t>(rest >> 32),
+                       static_cast<std::uint16_t>(rest >> 16),
+                       static_cast<TraceAction>(rest & 0xffff)});
+  }
+  const std::uint64_t begun = num_begun_.load(std::memory_order_relaxed);
+  const std::uint64_t first_safe = begun > capacity ? begun - capacity : 0;
+  const std::uint64_t num_unsafe =
+      std::min(first_safe > begin ? first_safe - begin : 0, end - begin);
+  records.erase(records.begin(),
+                records.begin() + static_cast<std::ptrdiff_t>(num_unsafe));
+  *num_lost += begin + num_unsafe;
+  return records;
+}
+
+}  // namespace macrotask
