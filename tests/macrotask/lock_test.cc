@@ -120,6 +120,52 @@ TEST_P(LockOwnerTest, TwoLocksPassTheTurnBetweenTwoTasks) {
   }
 }
 
+TEST_P(LockOwnerTest, KnowsWhetherItIsSetAndWhoTookItLast) {
+  Lock lock(GetParam());
+  EXPECT_FALSE(lock.is_set());
+  EXPECT_EQ(lock.holder(), 0u);
+  lock.On();
+  EXPECT_TRUE(lock.is_set());
+  EXPECT_EQ(lock.holder(), 1u);
+  lock.Off();
+  EXPECT_FALSE(lock.is_set());
+  EXPECT_EQ(lock.holder(), 0u);
+  EXPECT_FALSE(lock.Test());
+  EXPECT_TRUE(lock.is_set());
+  EXPECT_EQ(lock.holder(), 1u);
+  Task task([&] { lock.Off(); });
+  task.Wait();
+  EXPECT_FALSE(lock.is_set());
+  EXPECT_EQ(lock.holder(), 0u);
+}
+
+TEST_P(LockOwnerTest, IsHeldByTheTaskThatItIsHandedTo) {
+  Lock lock(GetParam());
+  Event looked(GetParam());
+  lock.On();
+  Task next([&] {
+    lock.On();
+    looked.Wait();
+    lock.Off();
+  });
+  YieldUntil([&] { return lock.num_waiting() == 1; });
+  EXPECT_EQ(lock.holder(), 1u);
+  lock.Off();
+  // Handed over, not clear in between.
+  EXPECT_TRUE(lock.is_set());
+  EXPECT_EQ(lock.holder(), next.number());
+  looked.Post();
+  next.Wait();
+  EXPECT_FALSE(lock.is_set());
+}
+
+TEST(LockNumberTest, GrowsByOneWithEveryLock) {
+  const Lock one;
+  const Lock other;
+  EXPECT_GE(one.number(), 1u);
+  EXPECT_EQ(other.number(), one.number() + 1);
+}
+
 INSTANTIATE_BY_POLICY(LockOwnerTest);
 
 }  // namespace

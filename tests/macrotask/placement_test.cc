@@ -1,9 +1,13 @@
 #include "macrotask/placement.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <stdexcept>
 #include <string>
+
+#include "macrotask/task.h"
 
 namespace macrotask {
 namespace {
@@ -52,6 +56,60 @@ TEST(PlacementTest, RefusesLessThanOneTask) {
 TEST(IsUsableTest, IsFalseOutsideTheSystem) {
   EXPECT_FALSE(IsUsable(kAnyProcessor));
   EXPECT_FALSE(IsUsable(1 << 20));
+}
+
+int NumAllowed() {
+  cpu_set_t mask;
+  pthread_getaffinity_np(pthread_self(), sizeof mask, &mask);
+  return CPU_COUNT(&mask);
+}
+
+// Gives all processors back at the end.
+class SetMaxProcessorsTest : public testing::Test {
+ protected:
+  ~SetMaxProcessorsTest() override { SetMaxProcessors(num_processors_); }
+  const int num_processors_ = NumProcessors();
+};
+
+TEST_F(SetMaxProcessorsTest, LeavesTheFirstOnes) {
+  const int last = Placement(num_processors_).processor(num_processors_ - 1);
+  const int first = Placement(1).processor(0);
+  SetMaxProcessors(1);
+  EXPECT_EQ(NumProcessors(), 1);
+  EXPECT_TRUE(IsUsable(first));
+  EXPECT_EQ(IsUsable(last), num_processors_ == 1);
+  EXPECT_TRUE(Placement(1).pinned());
+  EXPECT_FALSE(Placement(2).pinned());
+  EXPECT_EQ(NumAllowed(), 1);
+  EXPECT_EQ(sched_getcpu(), first);
+}
+
+TEST_F(SetMaxProcessorsTest, GivesNoMoreThanThereAre) {
+  SetMaxProcessors(1 << 20);
+  EXPECT_EQ(NumProcessors(), num_processors_);
+  SetMaxProcessors(1);
+  SetMaxProcessors(num_processors_);
+  EXPECT_EQ(NumProcessors(), num_processors_);
+  EXPECT_EQ(NumAllowed(), num_processors_);
+}
+
+// Also on pthreads that have run tasks before.
+TEST_F(SetMaxProcessorsTest, BindsTheTasksThatStartAfterwards) {
+  for (const int most : {num_processors_, 1, num_processors_}) {
+    SetMaxProcessors(most);
+    for (int round = 0; round < 3; ++round) {
+      int num_allowed = 0;
+      Task task([&] { num_allowed = NumAllowed(); });
+      task.Wait();
+      EXPECT_EQ(num_allowed, most);
+    }
+  }
+}
+
+TEST_F(SetMaxProcessorsTest, RefusesLessThanOne) {
+  EXPECT_THROW(SetMaxProcessors(0), std::invalid_argument);
+  EXPECT_THROW(SetMaxProcessors(-1), std::invalid_argument);
+  EXPECT_EQ(NumProcessors(), num_processors_);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // What a whole process sees of the tasks: its end, and the limits that the
 // system sets it. Every test has a process of its own.
 
+#include "tests/macrotask/process.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,24 +15,10 @@
 #include "macrotask/event.h"
 #include "macrotask/task.h"
 
-// The sanitizers reserve address space of their own and cannot live within a
-// limit on it.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MACROTASK_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define MACROTASK_SANITIZED 1
-#endif
-#endif
-
 namespace macrotask {
 namespace {
 
-class ProcessTest : public testing::Test {
- protected:
-  // A fresh process per test rather than a fork of this one and its pthreads.
-  ProcessTest() { testing::FLAGS_gtest_death_test_style = "threadsafe"; }
-};
+using ProcessTest = InOwnProcess<testing::Test>;
 
 using ProcessEndTest = ProcessTest;
 
@@ -112,6 +100,8 @@ void LimitAddressSpace() {
   std::exit(num_runs == 0 ? 0 : 1);
 }
 
+// The sanitizers reserve address space of their own and cannot live within a
+// limit on it.
 TEST_F(ThreadLimitTest, IsReportedInOneSentenceBeforeAnyBodyStarts) {
 #ifdef MACROTASK_SANITIZED
   GTEST_SKIP() << "a limit on the address space stops the sanitizer itself";

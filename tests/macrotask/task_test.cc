@@ -121,6 +121,20 @@ TEST(TaskValueTest, IsTheUserValueInTheTaskAndZeroElsewhere) {
   EXPECT_EQ(inside, 0u);
 }
 
+TEST(TaskNumberTest, GrowsByOneFromTheInitialTasksOne) {
+  Task one([] {});
+  Task other([] {});
+  EXPECT_GT(one.number(), 1u);
+  EXPECT_EQ(other.number(), one.number() + 1);
+}
+
+TEST(TaskNumberTest, IsTheSameAfterTheTaskHasEnded) {
+  Task task([] {});
+  const std::uint32_t number = task.number();
+  task.Wait();
+  EXPECT_EQ(task.number(), number);
+}
+
 TEST(TaskConstructorTest, RefusesAForeignProcessorAndAnEmptyBody) {
   EXPECT_THROW(Task([] {}, {.processor = 1 << 20}), std::invalid_argument);
   EXPECT_THROW(Task([] {}, {.processor = -2}), std::invalid_argument);
