@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "macrotask/barrier.h"
+#include "macrotask/deadlock.h"
 #include "macrotask/event.h"
 #include "macrotask/lock.h"
 #include "macrotask/placement.h"
 #include "macrotask/task.h"
+#include "macrotask/trace.h"
 
 namespace bench {
 namespace {
@@ -172,16 +174,32 @@ std::vector<Cost> MeasureSynchronization(macrotask::WaitPolicy wait,
        })});
   if (macrotask::NumProcessors() >= 2) {
     const int calls = wait.kind == macrotask::WaitKind::kBlock ? 100 : 10000;
+    const auto barsync = [wait](int n) {
+      macrotask::Barrier barrier(2, wait);
+      RunTasks(
+          2,
+          [&](int) {
+            for (int call = 0; call < n; ++call) barrier.Sync();
+          },
+          wait);
+    };
+    measured.push_back({{"BARSYNC", "2 tasks, " + policy, {}}, calls, barsync});
     measured.push_back(
-        {{"BARSYNC", "2 tasks, " + policy, {}}, calls, [wait](int n) {
-           macrotask::Barrier barrier(2, wait);
-           RunTasks(
-               2,
-               [&](int) {
-                 for (int call = 0; call < n; ++call) barrier.Sync();
-               },
-               wait);
+        {{"BARSYNC, no deadlock detection", "2 tasks, " + policy, {}},
+         calls,
+         [barsync](int n) {
+           macrotask::SetDeadlockDetection(false);
+           barsync(n);
+           macrotask::SetDeadlockDetection(true);
          }});
+    measured.push_back({{"BARSYNC, traced", "2 tasks, " + policy, {}},
+                        calls,
+                        [barsync](int n) {
+                          macrotask::SetTraceClasses(
+                              macrotask::kAllTraceClasses);
+                          barsync(n);
+                          macrotask::SetTraceClasses(0);
+                        }});
     // There and back again, on fresh events, is two hand-overs.
     measured.push_back(
         {{"EVPOST to EVWAIT", "2 tasks, " + policy, {}}, calls, [wait](int n) {

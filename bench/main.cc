@@ -4,16 +4,16 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <initializer_list>
-#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "bench/build_info.h"
+#include "bench/command_options.h"
 #include "bench/output_file.h"
 #include "bench/report.h"
 #include "bench/reproduce.h"
 #include "bench/simulate.h"
+#include "bench/trace_command.h"
 
 namespace bench {
 namespace {
@@ -29,47 +29,6 @@ struct WaitOptions {
     return {.kind = kind, .hold_time = std::chrono::microseconds(hold_time_us)};
   }
 };
-
-// What is called by its Name().
-template <typename Value>
-std::map<std::string, Value> ByName(std::initializer_list<Value> values) {
-  std::map<std::string, Value> named;
-  for (const Value value : values) named.emplace(Name(value), value);
-  return named;
-}
-
-// An option whose values have names. Names only: CLI11's own transformers also
-// take the numbers behind an enumeration, so that "--figure 2" would be
-// Figure 3.
-template <typename Value>
-void AddChoice(CLI::App* app, const std::string& name, Value* value,
-               const std::map<std::string, Value>& choices,
-               const std::string& help) {
-  std::string names;
-  for (const auto& choice : choices) {
-    names += (names.empty() ? "" : ", ") + choice.first;
-  }
-  app->add_option_function<std::string>(
-         name,
-         [=](const std::string& text) {
-           const auto choice = choices.find(text);
-           if (choice == choices.end()) {
-             throw std::invalid_argument("unknown " + name + " '" + text +
-                                         "': expected one of " + names);
-           }
-           *value = choice->second;
-         },
-         help)
-      ->option_text("(" + names + ")");
-}
-
-CLI::Option* AddFile(CLI::App* app, const std::string& name, std::string* path,
-                     const std::string& help) {
-  return app->add_option(name, *path, help)->check([](const std::string& text) {
-    return text.empty() ? std::string("expected the name of a file")
-                        : std::string();
-  });
-}
 
 void AddWaitOptions(CLI::App* app, WaitOptions* wait) {
   AddChoice<macrotask::WaitKind>(
@@ -170,6 +129,9 @@ void SimulateCommand::Add(CLI::App* app) {
           "Write the trajectory to this file as CSV: load, joints, "
           "torques and tip forces at every grid point (- for the "
           "standard output, instead of the report)");
+  AddFile(app, "--trace", &options.trace,
+          "Record the history trace of the run in this file, for "
+          "macrotask trace");
 }
 
 void SimulateCommand::Run() {
@@ -184,7 +146,8 @@ int Main(int argc, char** argv) {
       "as McMillan, Sadayappan and Orin did on a CRAY Y-MP in 1993.\n"
       "\n"
       "  macrotask reproduce     their experiment, Tables 1 and 2\n"
-      "  macrotask simulate      one run of it, as you like\n",
+      "  macrotask simulate      one run of it, as you like\n"
+      "  macrotask trace         read a history trace\n",
       "macrotask"};
   app.set_version_flag("--version",
                        fmt::format("macrotask {} ({})", kVersion, kGitHash));
@@ -205,10 +168,15 @@ int Main(int argc, char** argv) {
       "second,\ndriven by a torque profile computed beforehand");
   simulate.Add(simulate_app);
 
+  TraceCommand trace;
+  CLI::App* trace_app = app.add_subcommand("trace", TraceCommand::kDescription);
+  trace.Add(trace_app);
+
   try {
     app.parse(argc, argv);
     if (reproduce_app->parsed()) reproduce.Run();
     if (simulate_app->parsed()) simulate.Run();
+    if (trace_app->parsed()) trace.Run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     fmt::print(stderr, "macrotask: {}\n", error.what());

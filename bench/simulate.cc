@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "bench/output_file.h"
 #include "dynamics/kinematics.h"
 #include "macrotask/placement.h"
+#include "macrotask/trace.h"
 
 namespace bench {
 namespace {
@@ -132,6 +134,22 @@ std::string Report(const SimulateOptions& options, const LiftCase& lift,
       duration / result.seconds());
 }
 
+// Returns the line of the report.
+std::string WriteHistory(const std::string& path) {
+  const macrotask::Trace trace = macrotask::TakeTrace();
+  macrotask::SetTraceClasses(0);
+  macrotask::WriteTrace(trace, path);
+  std::size_t num_records = 0;
+  std::uint64_t num_lost = 0;
+  for (const macrotask::TraceBuffer& buffer : trace.buffers) {
+    num_records += buffer.records.size();
+    num_lost += buffer.num_lost;
+  }
+  return fmt::format(
+      "history trace:     {} records in {}, {} older ones lost\n", num_records,
+      path, num_lost);
+}
+
 }  // namespace
 
 std::string Simulate(const SimulateOptions& options) {
@@ -141,7 +159,13 @@ std::string Simulate(const SimulateOptions& options) {
     throw std::invalid_argument(fmt::format("{} chains: expected 1 to {}",
                                             options.num_chains, kMostChains));
   }
-  if (!options.output.empty()) CheckOutput(options.output);
+  for (const std::string& path : {options.output, options.trace}) {
+    if (!path.empty()) CheckOutput(path);
+  }
+  if (options.trace == "-") {
+    throw std::invalid_argument(
+        "--trace - : expected a file, a history trace is no text");
+  }
   dynamics::Lift input =
       dynamics::PumaLift(options.num_chains, options.rotor_inertia);
   const int steps = integrators::CountSteps(input.duration, options.step);
@@ -163,10 +187,14 @@ std::string Simulate(const SimulateOptions& options) {
                                         .partition = options.partition,
                                         .wait = options.wait,
                                         .record = !options.output.empty()});
+  if (!options.trace.empty()) {
+    macrotask::SetTraceClasses(macrotask::kAllTraceClasses);
+  }
   const auto result = options.start == StartKind::kPlan
                           ? integration.RunFrom(lift.Planned())
                           : integration.Run(lift.InitialState());
   std::string report = Report(options, lift, system, result);
+  if (!options.trace.empty()) report += WriteHistory(options.trace);
   if (!options.output.empty()) {
     WriteOutput(options.output,
                 TrajectoryCsv(system, integration, lift.step()));

@@ -20,6 +20,7 @@ struct SimulateOptions {
   int num_chains = 4;
   bool rotor_inertia = false;
   std::string output;  // trajectory as CSV; none if empty
+  std::string trace;   // history trace of the run; none if empty
 };
 
 // Runs one simulation of the lift, writes the trajectory if wanted, and returns
