@@ -59,9 +59,14 @@ Worker::Worker(int processor, std::size_t stack_size)
     : record_(TaskRegistry::TheOne().Acquire()),
       stack_size_(stack_size),
       processor_(processor) {
-  const PthreadAttributes attributes(processor, stack_size);
-  CheckPthread(pthread_create(&pthread_, attributes.get(), &Main, this),
-               "pthread_create");
+  try {
+    const PthreadAttributes attributes(processor, stack_size);
+    CheckPthread(pthread_create(&pthread_, attributes.get(), &Main, this),
+                 "pthread_create");
+  } catch (...) {
+    TaskRegistry::TheOne().Release(record_);
+    throw;
+  }
 }
 
 void* Worker::Main(void* worker) {

@@ -89,7 +89,8 @@ void CheckRange(const Keyword& keyword, std::int64_t value) {
                            " to " + std::to_string(keyword.most));
 }
 
-// What MACROTASK_WAIT says. A bad value ends the program at its start.
+// What MACROTASK_WAIT says. A bad value ends the program at the first call that
+// wants to know.
 std::optional<WaitKind> WaitKindOfEnvironment() {
   const char* const name = std::getenv("MACROTASK_WAIT");
   if (name == nullptr || *name == '\0') return std::nullopt;
