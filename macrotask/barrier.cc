@@ -4,6 +4,8 @@
 #include <string>
 
 #include "macrotask/check.h"
+#include "macrotask/logical_barrier.h"
+#include "macrotask/logical_wait.h"
 #include "macrotask/program_end.h"
 #include "macrotask/published_wait.h"
 #include "macrotask/trace_point.h"
@@ -29,10 +31,14 @@ BlockingBarrier::BlockingBarrier(int num_tasks, std::uint32_t number)
 
 BlockingBarrier::~BlockingBarrier() {
   // It would wait for those who sleep.
-  if (!program_stops) pthread_barrier_destroy(&barrier_);
+  if (!caller_stops_program) pthread_barrier_destroy(&barrier_);
 }
 
 void BlockingBarrier::Sync() {
+  if (processor_of_caller != nullptr) {
+    // All tasks of the processor would sleep with the caller.
+    throw std::logic_error("a barrier that blocks, in a logical task");
+  }
   const std::uint64_t arrivals =
       arrivals_.fetch_add(1, std::memory_order_relaxed);
   const std::uint64_t end_of_phase = (arrivals / num_tasks_ + 1) * num_tasks_;
@@ -60,9 +66,12 @@ int BlockingBarrier::num_waiting() const {
 
 Barrier::Barrier(int num_tasks, WaitPolicy policy)
     : num_tasks_(CheckNumTasks(num_tasks)),
+      policy_(policy),
       number_(NextNumber(ObjectKind::kBarrier)) {
   if (policy.kind == WaitKind::kBlock) {
     algorithm_.emplace<BlockingBarrier>(num_tasks, number_);
+  } else if (policy.kind == WaitKind::kLogical) {
+    algorithm_ = std::make_unique<LogicalBarrier>(num_tasks, number_);
   } else {
     algorithm_.emplace<CountingBarrier>(num_tasks, policy, number_);
   }
@@ -71,10 +80,15 @@ Barrier::Barrier(int num_tasks, WaitPolicy policy)
 inline void Barrier::SyncUntraced() {
   if (auto* counting = std::get_if<CountingBarrier>(&algorithm_)) {
     counting->Sync();
+  } else if (auto* logical =
+                 std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
+    (*logical)->Sync();
   } else {
     std::get<BlockingBarrier>(algorithm_).Sync();
   }
 }
+
+Barrier::~Barrier() = default;
 
 void Barrier::Sync() {
   RecordAround(TraceClass::kEvents, TraceAction::kBarrierSync,
@@ -86,6 +100,10 @@ void Barrier::Sync() {
 int Barrier::num_waiting() const {
   if (auto* counting = std::get_if<CountingBarrier>(&algorithm_)) {
     return counting->num_waiting();
+  }
+  if (auto* logical =
+          std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
+    return (*logical)->num_waiting();
   }
   return std::get<BlockingBarrier>(algorithm_).num_waiting();
 }

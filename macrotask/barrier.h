@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <variant>
 
 #include "macrotask/counting_barrier.h"
@@ -11,6 +12,8 @@
 #include "macrotask/waited_object.h"
 
 namespace macrotask {
+
+class LogicalBarrier;
 
 // Internal: pthread_barrier_t with its errors checked, for WaitPolicy::Block().
 class BlockingBarrier {
@@ -54,6 +57,7 @@ class Barrier {
   // Makes a barrier of `num_tasks` tasks that wait as `policy` says. Throws
   // std::invalid_argument if `num_tasks` < 1.
   explicit Barrier(int num_tasks, WaitPolicy policy = {});
+  ~Barrier();
   Barrier(const Barrier&) = delete;
   Barrier& operator=(const Barrier&) = delete;
 
@@ -65,6 +69,8 @@ class Barrier {
   // Number of tasks that are in Sync() now and wait for others.
   int num_waiting() const;
 
+  const WaitPolicy& policy() const { return policy_; }
+
   // Of this barrier in lists and traces: 1, 2, ... in order of construction.
   std::uint32_t number() const { return number_; }
 
@@ -72,11 +78,13 @@ class Barrier {
   // One alternative per algorithm, one file per alternative; the constructor
   // chooses, by policy and number of tasks.
   using Algorithm =
-      std::variant<std::monostate, BlockingBarrier, CountingBarrier>;
+      std::variant<std::monostate, BlockingBarrier, CountingBarrier,
+                   std::unique_ptr<LogicalBarrier>>;
 
   void SyncUntraced();
 
   const int num_tasks_;
+  const WaitPolicy policy_;
   const std::uint32_t number_;
   Algorithm algorithm_;
 };

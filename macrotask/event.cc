@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "macrotask/logical_wait.h"
+
 namespace macrotask {
 namespace {
 
@@ -26,6 +28,7 @@ bool Event::Test() const {
   RecordIf(TraceClass::kEvents,
            posted ? TraceAction::kEventTest : TraceAction::kEventTestClear,
            TraceData(number(), 1));
+  if (!posted && processor_of_caller != nullptr) GiveWay();
   return posted;
 }
 

@@ -52,6 +52,8 @@ class Event {
   // True iff the event is posted.
   bool Test() const;
 
+  const WaitPolicy& policy() const { return policy_; }
+
   // Of this event in lists and traces: 1, 2, ... in order of construction.
   std::uint32_t number() const { return waited_.number; }
 

@@ -1,9 +1,7 @@
 #include "macrotask/lock.h"
 
-#include <sched.h>
-
 #include "macrotask/epoch.h"
-#include "macrotask/load.h"
+#include "macrotask/logical_wait.h"
 #include "macrotask/task_registry.h"
 #include "macrotask/trace_point.h"
 
@@ -120,7 +118,7 @@ bool Lock::Test() {
   RecordIf(TraceClass::kLocks,
            was_set ? TraceAction::kLockTestSet : TraceAction::kLockTestOn,
            TraceData(number_, was_set ? 1 : 0));
-  if (was_set && MoreTasksThanProcessors()) sched_yield();
+  if (was_set) GiveWay();
   return was_set;
 }
 

@@ -42,7 +42,7 @@ class Lock {
   void Off();
 
   // Returns true if the lock was set already; otherwise sets it and returns
-  // false: the caller now holds it. Never waits, but gives up the processor
+  // false: the caller now holds it. Never waits, but gives way to other tasks
   // when it returns true with more tasks than processors, because its callers
   // spin.
   [[nodiscard]] bool Test();
@@ -57,6 +57,8 @@ class Lock {
   // clear, or if a pthread took it that is no task. Any task may unlock, so
   // that this is a hint to whom to ask.
   std::uint32_t holder() const;
+
+  const WaitPolicy& policy() const { return policy_; }
 
   // Of this lock in lists and traces: 1, 2, ... in order of construction.
   std::uint32_t number() const { return number_; }

@@ -16,7 +16,7 @@ class Mutex {
   }
   ~Mutex() {
     // Those who sleep would come back to it.
-    if (!program_stops) pthread_mutex_destroy(&mutex_);
+    if (!caller_stops_program) pthread_mutex_destroy(&mutex_);
   }
   Mutex(const Mutex&) = delete;
   Mutex& operator=(const Mutex&) = delete;
@@ -50,7 +50,7 @@ class Condition {
   }
   ~Condition() {
     // It would wait for those who sleep.
-    if (!program_stops) pthread_cond_destroy(&condition_);
+    if (!caller_stops_program) pthread_cond_destroy(&condition_);
   }
   Condition(const Condition&) = delete;
   Condition& operator=(const Condition&) = delete;

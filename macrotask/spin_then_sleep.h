@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "macrotask/load.h"
+#include "macrotask/logical_wait.h"
 #include "macrotask/published_wait.h"
 #include "macrotask/wait_policy.h"
 
@@ -68,6 +69,12 @@ template <typename Done, typename Sleep>
 void SpinThenSleep(const WaitPolicy& policy, const WaitedObject& what,
                    const Done& done, const Sleep& sleep) {
   if (done()) return;
+  if (processor_of_caller != nullptr) {
+    const auto is_over = [](const void* wait) {
+      return (*static_cast<const Done*>(wait))();
+    };
+    return WaitLogically(what, is_over, &done);
+  }
   const bool spins =
       policy.kind != WaitKind::kBlock && !MoreTasksThanProcessors();
   if (spins && SpinBriefly(done)) return;

@@ -9,6 +9,8 @@
 
 #include "macrotask/affinity.h"
 #include "macrotask/load.h"
+#include "macrotask/logical_processor.h"
+#include "macrotask/logical_wait.h"
 #include "macrotask/program_end.h"
 #include "macrotask/task_registry.h"
 #include "macrotask/trace_point.h"
@@ -99,7 +101,7 @@ Task::Task(std::function<void()> body, TaskOptions options)
 
 Task::~Task() {
   // It may be one of those in a deadlock.
-  if (!program_stops) job_.Await();
+  if (!caller_stops_program) job_.Await();
 }
 
 void Task::Wait() {
@@ -113,6 +115,7 @@ bool Task::Test() const {
   const bool runs = is_running();
   RecordIf(TraceClass::kTasks, TraceAction::kTaskTest,
            TraceData(job_.number, runs ? 1 : 0));
+  if (runs && processor_of_caller != nullptr) GiveWay();
   return runs;
 }
 
@@ -124,6 +127,10 @@ void RunTasks(int num_tasks, const std::function<void(int)>& body,
               WaitPolicy wait) {
   const Placement placement(num_tasks);
   if (!body) throw std::invalid_argument("tasks need a body");
+  if (wait.kind == WaitKind::kLogical) {
+    if (processor_of_caller == nullptr) return RunLogicalTasks(num_tasks, body);
+    wait = WaitPolicy::Hold();  // within a logical task
+  }
   const std::vector<int> processors = ProcessorsOf(placement);
 
   // Everything that can fail comes before the first start.

@@ -12,6 +12,9 @@ namespace macrotask {
 
 class TraceRing;
 
+// Internal: a variable of each pthread, as cheap as there is.
+#define MACROTASK_TLS __attribute__((tls_model("initial-exec")))
+
 enum class TaskState {
   kNone,
   kReady,
@@ -73,9 +76,12 @@ class alignas(kCacheLine) TaskRecord {
   }
   std::uint64_t value() const { return value_.load(std::memory_order_relaxed); }
   pid_t pthread_id() const {
-    return pthread_id_.load(std::memory_order_relaxed);
+    return pthread_id_.load(std::memory_order_acquire);
   }
   TaskRecord* next() const { return next_; }
+
+  // What the search for deadlocks saw in its first pass; its own.
+  Word seen{};
 
   // The owner's part of the history trace; null if it has recorded nothing.
   std::atomic<TraceRing*> trace{nullptr};

@@ -29,7 +29,6 @@ class TaskRegistry {
 
 // Internal: the record of the calling pthread, null if it has none yet, and the
 // number of the task that it runs (0: none).
-#define MACROTASK_TLS __attribute__((tls_model("initial-exec")))
 inline constinit thread_local TaskRecord* record_of_caller MACROTASK_TLS =
     nullptr;
 inline constinit thread_local std::uint32_t number_of_caller MACROTASK_TLS = 0;

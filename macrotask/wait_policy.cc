@@ -10,12 +10,15 @@ std::string_view Name(WaitKind kind) {
       return "spin";
     case WaitKind::kHold:
       return "hold";
+    case WaitKind::kLogical:
+      return "logical";
   }
   return "unknown";
 }
 
 std::optional<WaitKind> ParseWaitKind(std::string_view name) {
-  for (WaitKind kind : {WaitKind::kBlock, WaitKind::kSpin, WaitKind::kHold}) {
+  for (WaitKind kind : {WaitKind::kBlock, WaitKind::kSpin, WaitKind::kHold,
+                        WaitKind::kLogical}) {
     if (name == Name(kind)) return kind;
   }
   return std::nullopt;

@@ -11,6 +11,7 @@ enum class WaitKind {
   kBlock,  // sleeps at once: pthread_barrier_t, or mutex and condition variable
   kSpin,   // never sleeps; yields if there are more tasks than processors
   kHold,   // holds its processor for a while, spinning, then sleeps
+  kLogical,  // the next task of the same processor goes on, in user space
 };
 
 // How long a `hold` wait spins before it sleeps. To fall asleep and to be woken
@@ -31,6 +32,9 @@ inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
 // library; other threads of the program are not counted.
 // Cost: every bench row of a synchronization says which policy it is of.
 //
+// kLogical is for RunTasks(), whose tasks then take turns on NumProcessors()
+// pthreads, and for the objects that these use; elsewhere it is kHold.
+//
 //   Barrier faithful(num_tasks, WaitPolicy::Block());
 //   Barrier dedicated(num_tasks, WaitPolicy::Spin());
 //   Barrier usual(num_tasks);  // WaitPolicy::Hold()
@@ -50,10 +54,14 @@ struct WaitPolicy {
     return {WaitKind::kHold, hold_time};
   }
 
+  static constexpr WaitPolicy Logical() {
+    return {WaitKind::kLogical, kDefaultHoldTime};
+  }
+
   friend bool operator==(const WaitPolicy&, const WaitPolicy&) = default;
 };
 
-// Returns "block", "spin" or "hold".
+// Returns "block", "spin", "hold" or "logical".
 std::string_view Name(WaitKind kind);
 
 // Returns the kind that Name() calls `name`, or nothing if there is none.

@@ -165,6 +165,11 @@ void WorkerPool::SetStackSize(std::size_t bytes) {
   stack_size_ = bytes;
 }
 
+std::size_t WorkerPool::stack_size() const {
+  const MutexGuard guard(mutex_);
+  return stack_size_;
+}
+
 // Returns an idle worker with the stack that is wanted now, the first on
 // `processor` if there is one, or null.
 Worker* WorkerPool::TakeIdle(int processor) {
@@ -194,7 +199,8 @@ void WorkerPool::Return(Worker* worker) {
 }
 
 void WorkerPool::JoinIdle() {
-  if (program_stops) return;  // It may be one of them that stops the program.
+  if (caller_stops_program)
+    return;  // It may be one of them that stops the program.
   while (Worker* const worker = TakeAnyIdle()) {
     const std::unique_ptr<Worker> joined(worker);
     joined->Join();

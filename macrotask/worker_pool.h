@@ -80,6 +80,7 @@ class WorkerPool {
   //
   // Cray name: STACKSZ, a keyword of TSKTUNE.
   void SetStackSize(std::size_t bytes);
+  std::size_t stack_size() const;
 
   // Makes an acquired worker idle.
   void Return(Worker* worker);

@@ -16,7 +16,8 @@
 namespace macrotask {
 
 inline const WaitPolicy kAllPolicies[] = {
-    WaitPolicy::Block(), WaitPolicy::Spin(), WaitPolicy::Hold()};
+    WaitPolicy::Block(), WaitPolicy::Spin(), WaitPolicy::Hold(),
+    WaitPolicy::Logical()};
 inline constexpr int kTaskCounts[] = {1, 2, 3, 4, 7, 16};
 
 // How a failing test shows its parameter.

@@ -22,7 +22,8 @@ TEST(WaitPolicyTest, HoldForTheDefaultTimeIsTheDefault) {
 }
 
 TEST(WaitKindTest, NamesAreReadBack) {
-  for (WaitKind kind : {WaitKind::kBlock, WaitKind::kSpin, WaitKind::kHold}) {
+  for (WaitKind kind : {WaitKind::kBlock, WaitKind::kSpin, WaitKind::kHold,
+                        WaitKind::kLogical}) {
     EXPECT_EQ(ParseWaitKind(Name(kind)), kind);
   }
   EXPECT_EQ(ParseWaitKind("hold"), WaitKind::kHold);

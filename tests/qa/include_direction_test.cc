@@ -26,7 +26,7 @@ struct Rule {
 
 const std::map<std::string, Rule>& Rules() {
   static const auto* kRules = new std::map<std::string, Rule>{
-      {"macrotask", {{}, {}}},
+      {"macrotask", {{}, {"boost"}}},
       {"dynamics", {{}, {"Eigen"}}},
       {"integrators", {{"macrotask"}, {}}},
       {"bench",
@@ -40,7 +40,7 @@ const std::map<std::string, Rule>& Rules() {
 }
 
 const Names kSystem = {"arpa", "bits",    "experimental", "linux",
-                       "net",  "netinet", "sys"};
+                       "net",  "netinet", "sanitizer",    "sys"};
 
 bool ExistsBelowRoot(const std::string& file) {
   const fs::path path = fs::path(SOURCE_DIR) / file;

@@ -1,0 +1,92 @@
+#include "macrotask/logical_barrier.h"
+
+#include <bit>
+
+#include "macrotask/logical_wait.h"
+#include "macrotask/spin_then_sleep.h"
+
+// With n tasks, phase k (from 0) is complete when (k + 1) n arrivals are
+// published.
+//
+// The phase of an arrival is the number of complete phases: all phases before
+// are complete, as this task has left them, and its own is not, as this arrival
+// is missing. While a processor has arrivals that are not published their phase
+// cannot be complete, and others of the processor's tasks that arrive belong to
+// it. Otherwise the sum is read: it lies in [k n, (k + 1) n), however the lines
+// are read one after the other, as every line only grows.
+//
+// Published is late, so that a line changes hands once a phase: when as many of
+// the processor's tasks have arrived as in the phase before, or before the
+// processor has nothing to do, or after every task had a turn. Which of these
+// is a question of speed only.
+
+namespace macrotask {
+
+std::uint64_t LogicalBarrier::NumArrivals() const {
+  // Acquire: partner of the release in Publish() and SyncOfPthread().
+  std::uint64_t sum = of_pthreads_.arrivals.load(std::memory_order_acquire);
+  std::uint64_t slots = slots_.load(std::memory_order_acquire);
+  for (; slots != 0; slots &= slots - 1) {
+    sum += lines_[std::countr_zero(slots)].arrivals.load(
+        std::memory_order_acquire);
+  }
+  return sum;
+}
+
+void LogicalBarrier::Sync() {
+  if (num_tasks_ == 1) return;
+  LogicalProcessor* const processor = processor_of_caller;
+  if (processor == nullptr || processor->slot() == LogicalProcessor::kNoSlot) {
+    return SyncOfPthread();
+  }
+  Count& count = counts_[processor->slot()];
+  if (count.pending == 0) {
+    const std::uint64_t end = (NumArrivals() / num_tasks_ + 1) * num_tasks_;
+    if (end != count.end_of_phase) {
+      count.expected = count.arrived;
+      count.arrived = 0;
+      count.end_of_phase = end;
+    }
+  }
+  const std::uint64_t end_of_phase = count.end_of_phase;
+  ++count.arrived;
+  if (++count.pending == 1) processor->FlushLater(this);
+  if (count.arrived == count.expected) Publish(processor);
+  Wait(end_of_phase);
+}
+
+void LogicalBarrier::SyncOfPthread() {
+  const std::uint64_t end_of_phase =
+      (NumArrivals() / num_tasks_ + 1) * num_tasks_;
+  // Release: partner of the acquire in NumArrivals().
+  of_pthreads_.arrivals.fetch_add(1, std::memory_order_release);
+  Wait(end_of_phase);
+}
+
+void LogicalBarrier::Wait(std::uint64_t end_of_phase) {
+  SpinThenSleep(
+      WaitPolicy::Spin(), waited_,
+      [&] { return NumArrivals() >= end_of_phase; }, [] {});
+}
+
+void LogicalBarrier::Publish(LogicalProcessor* processor) {
+  const int slot = processor->slot();
+  Count& count = counts_[slot];
+  std::atomic<std::uint64_t>& arrivals = lines_[slot].arrivals;
+  const std::uint64_t bit = std::uint64_t{1} << slot;
+  if (!(slots_.load(std::memory_order_relaxed) & bit)) {
+    // Release: whoever then adds up the lines sees this one's slot.
+    slots_.fetch_or(bit, std::memory_order_release);
+  }
+  // Release: partner of the acquire in NumArrivals().
+  arrivals.store(arrivals.load(std::memory_order_relaxed) + count.pending,
+                 std::memory_order_release);
+  count.pending = 0;
+  processor->IsFlushed(this);
+}
+
+int LogicalBarrier::num_waiting() const {
+  return static_cast<int>(NumArrivals() % num_tasks_);
+}
+
+}  // namespace macrotask

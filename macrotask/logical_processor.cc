@@ -1,0 +1,263 @@
+#include "macrotask/logical_processor.h"
+
+#include <cxxabi.h>
+#include <sched.h>
+#include <time.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <utility>
+
+#include "macrotask/deadlock.h"
+#include "macrotask/load.h"
+#include "macrotask/logical_barrier.h"
+#include "macrotask/logical_wait.h"
+#include "macrotask/placement.h"
+#include "macrotask/spin_then_sleep.h"
+#include "macrotask/task.h"
+#include "macrotask/task_registry.h"
+#include "macrotask/trace_point.h"
+
+namespace macrotask {
+namespace {
+
+std::atomic<std::uint64_t> slots_in_use{0};
+
+int TakeSlot() {
+  std::uint64_t in_use = slots_in_use.load(std::memory_order_relaxed);
+  for (;;) {
+    const int slot = std::countr_one(in_use);
+    if (slot == LogicalProcessor::kMostSlots) return LogicalProcessor::kNoSlot;
+    // Acquire: partner of the release in GiveSlot(): what the last processor
+    // with this slot left in the barriers.
+    if (slots_in_use.compare_exchange_weak(
+            in_use, in_use | std::uint64_t{1} << slot,
+            std::memory_order_acquire, std::memory_order_relaxed)) {
+      return slot;
+    }
+  }
+}
+
+void GiveSlot(int slot) {
+  if (slot == LogicalProcessor::kNoSlot) return;
+  // Release: partner of the acquire in TakeSlot().
+  slots_in_use.fetch_and(~(std::uint64_t{1} << slot),
+                         std::memory_order_release);
+}
+
+ExceptionState& ExceptionsOfPthread() {
+  return *reinterpret_cast<ExceptionState*>(abi::__cxa_get_globals());
+}
+
+}  // namespace
+
+LogicalProcessor::LogicalProcessor() : slot_(TakeSlot()) {}
+
+LogicalProcessor::~LogicalProcessor() {
+  for (LogicalTask* task : tasks_) LogicalTask::Give(task);
+  GiveSlot(slot_);
+}
+
+void LogicalProcessor::Add(const std::function<void(int)>& body, int index) {
+  LogicalTask* const task = LogicalTask::Take();
+  task->body = &body;
+  task->index = index;
+  task->failure = nullptr;
+  task->has_record_of_pthread = tasks_.empty();
+  if (tasks_.empty()) {
+    task->record = &RecordOfCaller();
+    task->number = task->record->number();
+    task->next = task->previous = task;
+  } else {
+    task->record = TaskRegistry::TheOne().Acquire();
+    task->number = NextTaskNumber();
+    task->record->SetReady(task->number, 0);
+    RecordIf(TraceClass::kTasks, TraceAction::kTaskStart,
+             TraceData(task->number));
+    task->next = tasks_.front();
+    task->previous = tasks_.back();
+    tasks_.back()->next = tasks_.front()->previous = task;
+  }
+  tasks_.push_back(task);
+  ++num_left_;
+}
+
+std::exception_ptr LogicalProcessor::Run() {
+  pthread_.annotations.Adopt();
+  pthread_.record = &RecordOfCaller();
+  pthread_.number = number_of_caller;
+  current_ = &pthread_;
+  processor_of_caller = this;
+  SwitchTo(tasks_.front());
+  processor_of_caller = nullptr;
+  std::exception_ptr failure;
+  for (LogicalTask* task : tasks_) {
+    if (!task->has_record_of_pthread) {
+      TaskRegistry::TheOne().Release(task->record);
+    }
+    if (!failure) failure = task->failure;
+  }
+  return failure;
+}
+
+// A task is resumed by another pthread when it runs its next body there: what
+// it knew before the switch may not be used after it.
+[[gnu::noinline]] LogicalProcessor& LogicalProcessor::Here() {
+  return *processor_of_caller;
+}
+
+// By the stack that was switched to: the one that it came from can be resumed
+// from now on.
+void LogicalProcessor::Arrive(boost::context::fiber&& from) {
+  LogicalProcessor& here = Here();
+  here.previous_->context = std::move(from);
+  here.current_->annotations.Enter(&here.previous_->annotations);
+  ExceptionsOfPthread() = here.current_->exceptions;
+}
+
+void LogicalProcessor::SwitchTo(LogicalTask* task) {
+  previous_ = std::exchange(current_, task);
+  record_of_caller = task->record;
+  number_of_caller = task->number;
+  previous_->exceptions = ExceptionsOfPthread();
+  previous_->annotations.Leave(task->annotations);
+  Arrive(std::move(task->context).resume());
+}
+
+// By a task whose body has ended. Returns when it is given another one.
+void LogicalProcessor::Finish() {
+  LogicalTask* const task = current_;
+  task->next->previous = task->previous;
+  task->previous->next = task->next;
+  --num_left_;
+  SwitchTo(num_left_ == 0 ? &pthread_ : NextTurn(task->next));
+}
+
+void LogicalProcessor::Wait(const WaitedObject& what,
+                            TaskRecord::IsOver is_over, const void* wait) {
+  LogicalTask* const task = current_;
+  task->what = &what;
+  task->is_over = is_over;
+  task->wait = wait;
+  LogicalTask* const next = NextTurn(task->next);
+  if (next != task) SwitchTo(next);
+  task->is_over = nullptr;
+}
+
+void LogicalProcessor::Yield() {
+  Flush();
+  LogicalTask* const task = current_;
+  LogicalTask* const next = NextTurn(task->next);
+  if (next == task) {
+    if (MoreTasksThanProcessors()) sched_yield();
+    return;
+  }
+  SwitchTo(next);
+}
+
+// The first in the ring, from `first` on, that can go on; null if none can.
+LogicalTask* LogicalProcessor::FindRunnable(LogicalTask* first) const {
+  LogicalTask* task = first;
+  do {
+    if (task->CanRun()) return task;
+    task = task->next;
+  } while (task != first);
+  return nullptr;
+}
+
+LogicalTask* LogicalProcessor::NextTurn(LogicalTask* first) {
+  // As long as there is always another task that can go on, others would wait
+  // for ever for what is not flushed.
+  if (!unflushed_.empty() && ++num_turns_ > num_left_) Flush();
+  LogicalTask* const task = FindRunnable(first);
+  return task != nullptr ? task : AwaitRunnable(first);
+}
+
+// All tasks of this processor wait for those of others.
+LogicalTask* LogicalProcessor::AwaitRunnable(LogicalTask* first) {
+  using Clock = std::chrono::steady_clock;
+  Flush();
+  LogicalTask* task = nullptr;
+  Clock::time_point start;
+  for (int round = 1; (task = FindRunnable(first)) == nullptr; ++round) {
+    Pause();
+    // The first look only starts the clock: short waits never read it.
+    if (round % kPausesPerLook != 0) continue;
+    if (round == kPausesPerLook) start = Clock::now();
+    const auto waited = Clock::now() - start;
+    if (waited < kDefaultHoldTime) continue;
+    if (!waits_are_published_) PublishWaits();
+    // The processor may be wanted by others; then it is asked for seldom.
+    constexpr auto kPatience = std::chrono::milliseconds(1);
+    constexpr timespec kNap = {.tv_sec = 0, .tv_nsec = 50'000};
+    if (waited < kPatience) {
+      sched_yield();
+    } else {
+      nanosleep(&kNap, nullptr);
+    }
+  }
+  if (waits_are_published_) EndWaits();
+  return task;
+}
+
+void LogicalProcessor::PublishWaits() {
+  LogicalTask* const first = current_->next;
+  LogicalTask* task = first;
+  do {
+    if (task->what->kind != ObjectKind::kNone) {
+      task->record->BeginWait(*task->what, task->is_over, task->wait);
+    }
+    task = task->next;
+  } while (task != first);
+  waits_are_published_ = true;
+  DetectDeadlock();
+}
+
+void LogicalProcessor::EndWaits() {
+  LogicalTask* const first = current_->next;
+  LogicalTask* task = first;
+  do {
+    if (task->what->kind != ObjectKind::kNone) task->record->EndWait();
+    task = task->next;
+  } while (task != first);
+  waits_are_published_ = false;
+}
+
+void LogicalProcessor::Flush() {
+  num_turns_ = 0;
+  while (!unflushed_.empty()) unflushed_.back()->Publish(this);
+}
+
+void WaitLogically(const WaitedObject& what, TaskRecord::IsOver is_over,
+                   const void* wait) {
+  processor_of_caller->Wait(what, is_over, wait);
+}
+
+void GiveWay() {
+  if (processor_of_caller != nullptr) {
+    processor_of_caller->Yield();
+  } else if (MoreTasksThanProcessors()) {
+    sched_yield();
+  }
+}
+
+void RunLogicalTasks(int num_tasks, const std::function<void(int)>& body) {
+  const int num_processors = std::min(NumProcessors(), num_tasks);
+  RunTasks(
+      num_processors,
+      [&](int p) {
+        LogicalProcessor processor;
+        for (int task = num_tasks * p / num_processors;
+             task < num_tasks * (p + 1) / num_processors; ++task) {
+          processor.Add(body, task);
+        }
+        if (const std::exception_ptr failure = processor.Run()) {
+          std::rethrow_exception(failure);
+        }
+      },
+      WaitPolicy::Hold());
+}
+
+}  // namespace macrotask

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "macrotask/logical_task.h"
+#include "macrotask/wait_policy.h"
+
+namespace macrotask {
+
+class LogicalBarrier;
+
+// Internal: a pthread that runs several tasks by turns, in user space. A task
+// that waits gives way to the next one that can go on; nobody is interrupted.
+//
+// Use: everything by tasks of this processor, or by the pthread itself before
+// and after Run().
+// Memory ordering: tasks of one processor see what the others wrote before.
+// Cost: a turn is a switch of stacks, some 10 ns, and a look at what the next
+// task waits for (bench row "BARSYNC").
+class LogicalProcessor {
+ public:
+  LogicalProcessor();
+  ~LogicalProcessor();
+  LogicalProcessor(const LogicalProcessor&) = delete;
+  LogicalProcessor& operator=(const LogicalProcessor&) = delete;
+
+  // Adds the task `index` of `body`, before Run(). The first one is given the
+  // record and the number of the pthread.
+  void Add(const std::function<void(int)>& body, int index);
+
+  // Runs all tasks until they have ended. Returns what the first of them, in
+  // the order in which they were added, has thrown.
+  std::exception_ptr Run();
+
+  // Returns when the wait of the calling task is over. As TaskRecord's
+  // BeginWait(); others run meanwhile.
+  void Wait(const WaitedObject& what, TaskRecord::IsOver is_over,
+            const void* wait);
+
+  // Lets the next task that can go on have a turn.
+  void Yield();
+
+  // Calls FlushPending() of the barrier before this processor has nothing to
+  // do.
+  void FlushLater(LogicalBarrier* barrier) { unflushed_.push_back(barrier); }
+  void IsFlushed(LogicalBarrier* barrier) { std::erase(unflushed_, barrier); }
+
+  // A number below kMostSlots that no other processor has at the same time, or
+  // kNoSlot if there are more.
+  static constexpr int kMostSlots = 64;
+  static constexpr int kNoSlot = -1;
+  int slot() const { return slot_; }
+
+ private:
+  friend struct LogicalTask;
+
+  static LogicalProcessor& Here();
+  static void Arrive(boost::context::fiber&& from);
+  void SwitchTo(LogicalTask* task);
+  void Finish();
+  LogicalTask* FindRunnable(LogicalTask* first) const;
+  LogicalTask* NextTurn(LogicalTask* first);
+  LogicalTask* AwaitRunnable(LogicalTask* first);
+  void PublishWaits();
+  void EndWaits();
+  void Flush();
+
+  const int slot_;
+  std::vector<LogicalTask*> tasks_;  // in the order of Add()
+  LogicalTask* current_ = nullptr;
+  LogicalTask* previous_ = nullptr;  // who switched to current_
+  LogicalTask pthread_{0};           // the stack that called Run()
+  int num_left_ = 0;                 // in the ring
+  int num_turns_ = 0;                // since the last Flush()
+  bool waits_are_published_ = false;
+  std::vector<LogicalBarrier*> unflushed_;
+};
+
+// Runs body(0) ... body(num_tasks - 1) by turns on up to NumProcessors()
+// pthreads, the caller's among them, neighbours together. As RunTasks() with
+// WaitPolicy::Logical(), which is this.
+void RunLogicalTasks(int num_tasks, const std::function<void(int)>& body);
+
+}  // namespace macrotask

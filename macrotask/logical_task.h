@@ -1,0 +1,61 @@
+#pragma once
+
+#include <boost/context/fiber.hpp>
+#include <cstdint>
+#include <exception>
+#include <functional>
+
+#include "macrotask/fiber_annotations.h"
+#include "macrotask/task_record.h"
+
+namespace macrotask {
+
+// Internal: what the C++ runtime keeps for every pthread and would have to keep
+// for every stack (__cxa_eh_globals of the Itanium C++ ABI).
+struct ExceptionState {
+  void* caught = nullptr;
+  unsigned num_uncaught = 0;
+};
+
+// Internal: a task with a stack of its own that takes turns with others on one
+// pthread (its logical processor). It is kept when its body has ended, parked at
+// the end of a loop, for the next body.
+struct LogicalTask {
+  // With a stack of so many bytes and a guard page; 0 for that of the caller.
+  explicit LogicalTask(std::size_t stack_size);
+  LogicalTask(const LogicalTask&) = delete;
+  LogicalTask& operator=(const LogicalTask&) = delete;
+
+  // Takes one with a stack of the size that is wanted now from those that are
+  // parked, or makes one. Give() parks it again.
+  static LogicalTask* Take();
+  static void Give(LogicalTask* task);
+
+  boost::context::fiber context;  // where it goes on; empty while it runs
+  std::size_t stack_size;
+  FiberAnnotations annotations;
+
+  // Of the body that it runs.
+  void RunBody();
+  const std::function<void(int)>* body = nullptr;
+  int index = 0;
+  std::exception_ptr failure;
+  TaskRecord* record = nullptr;
+  bool has_record_of_pthread = false;  // that of the pthread's own task
+  std::uint32_t number = 0;
+
+  // Of its wait; none while is_over is null.
+  TaskRecord::IsOver is_over = nullptr;
+  const void* wait = nullptr;
+  const WaitedObject* what = nullptr;
+
+  // What the C++ runtime knows of the exceptions being handled on this stack.
+  ExceptionState exceptions;
+
+  LogicalTask* next = nullptr;  // in the ring of its processor, or parked
+  LogicalTask* previous = nullptr;
+
+  bool CanRun() const { return is_over == nullptr || is_over(wait); }
+};
+
+}  // namespace macrotask
