@@ -135,9 +135,8 @@ std::string Report(const SimulateOptions& options, const LiftCase& lift,
 }
 
 // Returns the line of the report.
-std::string WriteHistory(const std::string& path) {
-  const macrotask::Trace trace = macrotask::TakeTrace();
-  macrotask::SetTraceClasses(0);
+std::string WriteHistory(const macrotask::Trace& trace,
+                         const std::string& path) {
   macrotask::WriteTrace(trace, path);
   std::size_t num_records = 0;
   std::uint64_t num_lost = 0;
@@ -193,8 +192,10 @@ std::string Simulate(const SimulateOptions& options) {
   const auto result = options.start == StartKind::kPlan
                           ? integration.RunFrom(lift.Planned())
                           : integration.Run(lift.InitialState());
+  const macrotask::Trace trace = macrotask::TakeTrace();
+  macrotask::SetTraceClasses(0);
   std::string report = Report(options, lift, system, result);
-  if (!options.trace.empty()) report += WriteHistory(options.trace);
+  if (!options.trace.empty()) report += WriteHistory(trace, options.trace);
   if (!options.output.empty()) {
     WriteOutput(options.output,
                 TrajectoryCsv(system, integration, lift.step()));

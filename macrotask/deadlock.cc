@@ -34,24 +34,18 @@ namespace {
 
 std::atomic<bool> detects{true};
 
-struct Seen {
-  TaskRecord* record;
-  TaskRecord::Word word;
-};
-
 bool CanRun(TaskState state) {
   return state == TaskState::kReady || state == TaskState::kRunning;
 }
 
-// All records with their words, or nothing if one of the tasks can run.
-std::vector<Seen> ReadAll(const TaskRecord* first) {
-  std::vector<Seen> all;
-  for (auto* record = const_cast<TaskRecord*>(first); record != nullptr;
-       record = record->next()) {
-    all.push_back({record, record->Read()});
-    if (CanRun(all.back().word.state)) return {};
+// The first pass, over all records from `first` on. Returns false if one of the
+// tasks can run.
+bool SeeAll(TaskRecord* first) {
+  for (TaskRecord* record = first; record != nullptr; record = record->next()) {
+    record->seen = record->Read();
+    if (CanRun(record->seen.state)) return false;
   }
-  return all;
+  return true;
 }
 
 bool SomeTaskCanRun() {
@@ -60,19 +54,6 @@ bool SomeTaskCanRun() {
     if (CanRun(record->Read().state)) return true;
   }
   return false;
-}
-
-// Most searches that get so far end here: a task has been released and has not
-// left its wait yet.
-bool SomeWaitIsOver() {
-  bool some_over = false;
-  for (TaskRecord* record = TaskRegistry::TheOne().first(); record != nullptr;
-       record = record->next()) {
-    record->Examine(record->Read(), [&](const WaitedObject&, bool is_over) {
-      some_over |= is_over;
-    });
-  }
-  return some_over;
 }
 
 // Whether the process has a pthread of which this library knows nothing. Also
@@ -98,11 +79,11 @@ bool HasUnknownPthread() {
   return false;
 }
 
-// The second pass. Returns the list of tasks if all of them still are where the
-// first pass saw them and no wait is over, otherwise nothing.
-std::vector<TaskStatus> ConfirmAll(const std::vector<Seen>& all) {
-  std::vector<TaskStatus> tasks;
-  for (const auto& [record, word] : all) {
+// The second pass. Returns true if all tasks still are where the first one saw
+// them and no wait is over. Lists them in `tasks` unless that is null.
+bool ConfirmAll(TaskRecord* first, std::vector<TaskStatus>* tasks) {
+  for (TaskRecord* record = first; record != nullptr; record = record->next()) {
+    const TaskRecord::Word word = record->seen;
     TaskStatus status = StatusOf(*record, word);
     bool all_over = false;
     const bool waits =
@@ -110,10 +91,12 @@ std::vector<TaskStatus> ConfirmAll(const std::vector<Seen>& all) {
           all_over = is_over;
           NoteWait(what, &status);
         });
-    if (all_over || (!waits && !(record->Read() == word))) return {};
-    if (word.state != TaskState::kNone) tasks.push_back(status);
+    if (all_over || (!waits && !(record->Read() == word))) return false;
+    if (tasks != nullptr && word.state != TaskState::kNone) {
+      tasks->push_back(status);
+    }
   }
-  return tasks;
+  return TaskRegistry::TheOne().first() == first;
 }
 
 }  // namespace
@@ -129,12 +112,13 @@ void DetectDeadlock() {
   std::vector<TaskStatus> tasks;
   {
     const MutexGuard one_at_a_time(ExamineMutex());
-    if (SomeWaitIsOver()) return;
     TaskRecord* const first = TaskRegistry::TheOne().first();
-    const std::vector<Seen> all = ReadAll(first);
-    if (all.empty() || HasUnknownPthread()) return;
-    tasks = ConfirmAll(all);
-    if (tasks.empty() || TaskRegistry::TheOne().first() != first) return;
+    // Once without any allocation; most searches that get so far end here, as
+    // a task has been released and has not left its wait yet.
+    if (!SeeAll(first) || !ConfirmAll(first, nullptr)) return;
+    if (!SeeAll(first) || HasUnknownPthread() || !ConfirmAll(first, &tasks)) {
+      return;
+    }
   }
   SortByNumber(&tasks);
   const std::string cycle = FindCycle(tasks);

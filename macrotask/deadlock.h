@@ -14,8 +14,9 @@ inline constexpr int kDeadlockExitCode = 3;
 //
 // Not seen: tasks that spin on Lock::Test(), Event::Test() or Task::Test(). No
 // alarm as long as any task runs, sleeps in a system call of its own or is
-// being started, or if the process has a pthread that has never called this
-// library: it may yet do what the others wait for.
+// being started, or if the process has a pthread that has never waited in
+// this library: it may yet do what the others wait for. A task that has gone to
+// sleep for that reason does not look again.
 //
 // Use: any task, at any time.
 // Cost: nothing for a wait that is over within half a microsecond, some 50 ns

@@ -85,15 +85,18 @@ void TaskRegistry::Release(TaskRecord* record) {
 }
 
 void TaskRegistry::Adopt(TaskRecord* record) {
-  record->pthread_id_.store(gettid(), std::memory_order_relaxed);
+  // Release: partner of the acquire in pthread_id(). Whoever takes the pthread
+  // for a known one also sees the task that it runs.
+  record->pthread_id_.store(gettid(), std::memory_order_release);
   record_of_caller = record;
 }
 
 TaskRecord& RegisterCaller() {
   const std::uint32_t number = NextTaskNumber();
-  TaskRegistry::Adopt(TaskRegistry::TheOne().Acquire());
-  record_of_caller->SetReady(number, 0);
-  record_of_caller->SetRunning(number);
+  TaskRecord* const record = TaskRegistry::TheOne().Acquire();
+  record->SetReady(number, 0);
+  record->SetRunning(number);
+  TaskRegistry::Adopt(record);
   NoteBusy(+1);
   CheckPthread(pthread_setspecific(KeyOfForeignRecords(), record_of_caller),
                "pthread_setspecific");

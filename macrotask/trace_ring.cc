@@ -13,6 +13,7 @@ namespace macrotask {
 namespace {
 
 constexpr std::uint64_t kOneMore = std::uint64_t{1} << 32;
+constexpr std::uint64_t kMostInARow = std::uint64_t{0xffffffff} << 32;
 
 bool IsTest(TraceAction action) {
   return action == TraceAction::kLockTestSet ||
@@ -49,7 +50,7 @@ void TraceRing::Append(const TraceRecord& record) {
   if (record.action == last_action_ && IsTest(record.action) &&
       record.task == last_task_ &&
       record.object() == static_cast<std::uint32_t>(last_data_)) {
-    last_data_ += kOneMore;
+    if (last_data_ < kMostInARow) last_data_ += kOneMore;
     Store(slots_[(number - 1) & mask_].data, last_data_);
     return;
   }

@@ -1,5 +1,5 @@
-// The routines of macrotask/cray.h for one width of handles. To be included like
-// calls-inl.h.
+// The routines of macrotask/cray.h for one width of handles. To be included
+// like calls-inl.h.
 
 #include "macrotask/cray/calls-inl.h"
 

@@ -47,7 +47,8 @@ MACROTASK_ENTRY void TSKTUNE(const char* keyword, long value, ...) {
 }
 
 MACROTASK_ENTRY void BUFTUNE(const char* keyword, const char* value) {
-  RunCall(MACROTASK_CALL("BUFTUNE"), [&] { TuneTrace(keyword, value); });
+  RunCall(MACROTASK_CALL("BUFTUNE"),
+          [&] { TuneTrace(keyword, value == nullptr ? "" : value); });
 }
 
 MACROTASK_ENTRY void BUFUSER(long action, long data) {

@@ -8,7 +8,7 @@
 #define MACROTASK_ENTRY extern "C"
 
 MACROTASK_ENTRY MACROTASK_LOOKS_AT_MORE_WORDS void MACROTASK_NAME(
-    TSKSTART, tskstart)(Word* tca, void (*task)(), ...) {
+    TSKSTART, tskstart)(Word* tca, macrotask_routine* task, ...) {
   Words words;
   va_list rest;
   va_start(rest, task);

@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <vector>
 
+#define MACROTASK_NO_MACROS
+#include "macrotask/cray.h"
 #include "macrotask/cray/call.h"
 #include "macrotask/cray/objects.h"
 #include "macrotask/cray/printing.h"
@@ -68,10 +70,15 @@ constexpr std::size_t kMostPairs = 8;
 // Addresses of keywords and values, in turn, up to what is no address: a null
 // pointer, or the length of a CHARACTER argument, which is never as large as
 // the lowest address that a process can have.
+constexpr std::uintptr_t kLowestAddress = 4096;
+
 std::size_t NumPairs(const std::uintptr_t* words, std::size_t most) {
-  constexpr std::uintptr_t kLowestAddress = 4096;
   std::size_t num_pairs = 0;
   while (num_pairs < most && words[2 * num_pairs] >= kLowestAddress) {
+    if (words[2 * num_pairs + 1] < kLowestAddress) {
+      throw std::runtime_error("keyword " + std::to_string(num_pairs + 1) +
+                               " has no value");
+    }
     ++num_pairs;
   }
   return num_pairs;
@@ -85,11 +92,7 @@ std::vector<TuningPair> PairsOf(const std::uintptr_t* words,
   for (std::size_t i = 0; i < num_pairs; ++i) {
     const auto* keyword = reinterpret_cast<const char*>(words[2 * i]);
     const auto* value = reinterpret_cast<const Word*>(words[2 * i + 1]);
-    const std::string name(keyword, lengths[i]);
-    if (value == nullptr) {
-      throw std::runtime_error("keyword '" + name + "' has no value");
-    }
-    pairs.push_back({name, *value});
+    pairs.push_back({std::string(keyword, lengths[i]), *value});
   }
   return pairs;
 }
@@ -99,17 +102,22 @@ std::vector<TuningPair> PairsOf(const std::uintptr_t* words,
 MACROTASK_ENTRY MACROTASK_LOOKS_AT_MORE_WORDS void tsktune_(const char* keyword,
                                                             const Word* value,
                                                             ...) {
-  std::uintptr_t words[3 * kMostPairs] = {
+  // One pair more, to see whether the list ends.
+  std::uintptr_t words[3 * (kMostPairs + 1)] = {
       reinterpret_cast<std::uintptr_t>(keyword),
       reinterpret_cast<std::uintptr_t>(value)};
   va_list rest;
   va_start(rest, value);
-  for (std::size_t i = 2; i < 3 * kMostPairs; ++i) {
+  for (std::size_t i = 2; i < std::size(words); ++i) {
     words[i] = va_arg(rest, std::uintptr_t);
   }
   va_end(rest);
   RunCall(MACROTASK_CALL("TSKTUNE"), [&] {
-    const std::size_t num_pairs = NumPairs(words, kMostPairs);
+    const std::size_t num_pairs = NumPairs(words, kMostPairs + 1);
+    if (num_pairs > kMostPairs) {
+      throw std::runtime_error("more than " + std::to_string(kMostPairs) +
+                               " pairs");
+    }
     Tune(PairsOf(words, num_pairs, words + 2 * num_pairs));
   });
 }

@@ -64,7 +64,8 @@ class HandleTable {
         slot->handle.load(std::memory_order_acquire) != handle) {
       return nullptr;
     }
-    return slot->object.load(std::memory_order_relaxed);
+    // Acquire: partner of the release in Replace().
+    return slot->object.load(std::memory_order_acquire);
   }
 
   // A free slot's new handle; `object` belongs to it from now on. Throws
@@ -84,9 +85,17 @@ class HandleTable {
     return handle;
   }
 
+  // Throws as Assign() would.
+  void CheckRoom() const {
+    if (!free_.empty() || num_used_ <= kMostIndex) return;
+    throw std::runtime_error(std::to_string(num_used_) +
+                             " are assigned already, no more are possible");
+  }
+
   // Another object behind the same handle. Requires: Find(handle).
   void Replace(std::int64_t handle, Object* object) {
-    SlotOf(handle)->object.store(object, std::memory_order_relaxed);
+    // Release: partner of the acquire in Find().
+    SlotOf(handle)->object.store(object, std::memory_order_release);
   }
 
   // Requires: Find(handle).
@@ -132,10 +141,7 @@ class HandleTable {
       free_.pop_back();
       return index;
     }
-    if (num_used_ > kMostIndex) {
-      throw std::runtime_error(std::to_string(num_used_) +
-                               " are assigned already, no more are possible");
-    }
+    CheckRoom();
     if (num_used_ % kChunk == 0) {
       // Release: partner of the acquire in SlotOf().
       chunks_[num_used_ / kChunk].store(new Chunk, std::memory_order_release);

@@ -1,5 +1,7 @@
 #include "macrotask/cray/objects.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -24,7 +26,6 @@ struct Tables {
   std::vector<Lock*> free_locks;
   std::vector<Event*> free_events;
   std::multimap<int, Barrier*> free_barriers;
-  WaitPolicy policy_of_free = TunedPolicy();
 };
 
 Tables& TheTables() {
@@ -32,31 +33,28 @@ Tables& TheTables() {
   return *tables;
 }
 
-// Forgets released objects that wait in another way than is wanted now.
-Tables& TablesForAssigning() {
-  Tables& tables = TheTables();
-  if (!(tables.policy_of_free == TunedPolicy())) {
-    tables.free_locks.clear();
-    tables.free_events.clear();
-    tables.free_barriers.clear();
-    tables.policy_of_free = TunedPolicy();
-  }
-  return tables;
+// Whether the object's tasks wait as is wanted now.
+template <typename Object>
+bool IsTuned(const Object& object) {
+  return object.policy() == TunedPolicy();
 }
 
+// A free object, the last that was released first, or a new one.
 template <typename Object>
 Object* TakeFree(std::vector<Object*>* free) {
-  if (free->empty()) return new Object(TunedPolicy());
-  Object* const taken = free->back();
-  free->pop_back();
+  const auto found =
+      std::find_if(free->rbegin(), free->rend(),
+                   [](const Object* one) { return IsTuned(*one); });
+  if (found == free->rend()) return new Object(TunedPolicy());
+  Object* const taken = *found;
+  free->erase(std::next(found).base());
   return taken;
 }
 
 Barrier* TakeBarrier(int num_tasks, Tables* tables) {
-  const auto found = tables->free_barriers.find(num_tasks);
-  if (found == tables->free_barriers.end()) {
-    return new Barrier(num_tasks, TunedPolicy());
-  }
+  auto [found, end] = tables->free_barriers.equal_range(num_tasks);
+  while (found != end && !IsTuned(*found->second)) ++found;
+  if (found == end) return new Barrier(num_tasks, TunedPolicy());
   Barrier* const taken = found->second;
   tables->free_barriers.erase(found);
   return taken;
@@ -138,14 +136,19 @@ Barrier& BarrierOf(std::int64_t handle) {
 }
 
 std::uint32_t AssignLock(std::int64_t old) {
-  Tables& tables = TablesForAssigning();
+  Tables& tables = TheTables();
   auto handle = static_cast<std::uint32_t>(old);
   Lock* lock = tables.locks.Find(old);
-  if (lock != nullptr) {
-    CheckNobodyWaits(lock->num_waiting(), "for the lock");
-  } else {
+  if (lock == nullptr) {
+    tables.locks.CheckRoom();
     lock = TakeFree(&tables.free_locks);
     handle = tables.locks.Assign(lock);
+  } else {
+    CheckNobodyWaits(lock->num_waiting(), "for the lock");
+    if (!IsTuned(*lock)) {
+      lock = TakeFree(&tables.free_locks);
+      tables.locks.Replace(old, lock);
+    }
   }
   RecordIf(TraceClass::kLocks, TraceAction::kLockAssign,
            TraceData(lock->number()));
@@ -154,12 +157,16 @@ std::uint32_t AssignLock(std::int64_t old) {
 }
 
 std::uint32_t AssignEvent(std::int64_t old) {
-  Tables& tables = TablesForAssigning();
+  Tables& tables = TheTables();
   auto handle = static_cast<std::uint32_t>(old);
   Event* event = tables.events.Find(old);
   if (event == nullptr) {
+    tables.events.CheckRoom();
     event = TakeFree(&tables.free_events);
     handle = tables.events.Assign(event);
+  } else if (!IsTuned(*event) && NumWaitingFor(*event) == 0) {
+    event = TakeFree(&tables.free_events);
+    tables.events.Replace(old, event);
   }
   RecordIf(TraceClass::kEvents, TraceAction::kEventAssign,
            TraceData(event->number()));
@@ -174,12 +181,13 @@ std::uint32_t AssignBarrier(std::int64_t old, std::int64_t num_tasks) {
                              " tasks: expected 1 to " +
                              std::to_string(kMostTasks));
   }
-  Tables& tables = TablesForAssigning();
+  Tables& tables = TheTables();
   auto handle = static_cast<std::uint32_t>(old);
   Barrier* const before = tables.barriers.Find(old);
   if (before != nullptr) {
     CheckNobodyWaits(before->num_waiting(), "at the barrier");
   }
+  if (before == nullptr) tables.barriers.CheckRoom();
   Barrier* const barrier = TakeBarrier(static_cast<int>(num_tasks), &tables);
   if (before != nullptr) {
     tables.barriers.Replace(old, barrier);

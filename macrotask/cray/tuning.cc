@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <system_error>
 
-#include "macrotask/cray/call.h"
 #include "macrotask/placement.h"
-#include "macrotask/program_end.h"
 #include "macrotask/trace.h"
 #include "macrotask/trace_point.h"
 #include "macrotask/worker_pool.h"
@@ -95,10 +95,9 @@ std::optional<WaitKind> WaitKindOfEnvironment() {
   const char* const name = std::getenv("MACROTASK_WAIT");
   if (name == nullptr || *name == '\0') return std::nullopt;
   const auto kind = ParseWaitKind(name);
-  if (!kind) {
-    StopProgram(std::string("macrotask: MACROTASK_WAIT is '") + name +
-                    "': expected block, spin or hold\n",
-                kBadCallExitCode);
+  if (!kind || kind == WaitKind::kLogical) {
+    throw std::runtime_error(std::string("MACROTASK_WAIT is '") + name +
+                             "': expected block, spin or hold");
   }
   return kind;
 }
@@ -140,7 +139,8 @@ void TuneTrace(std::string_view keyword, std::string_view value) {
   if (name == "SIZE") {
     std::size_t size = 0;
     const char* const end = value.data() + value.size();
-    if (std::from_chars(value.data(), end, size).ptr != end || value.empty()) {
+    const auto [rest, error] = std::from_chars(value.data(), end, size);
+    if (rest != end || error != std::errc() || value.empty()) {
       throw std::runtime_error("SIZE of '" + std::string(value) +
                                "': expected a number of records");
     }

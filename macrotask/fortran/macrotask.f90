@@ -33,7 +33,7 @@
 !   CHARACTER*(*) arguments by `external :: tskstart`, in a scope in which this
 !   name does not come from the module.
 ! - From version 10 gfortran refuses calls of one routine, in one file, with
-!   arguments of different types, as TSKSTART has. Old programs are compiled
+!   arguments of different types or number, as TSKSTART has. Old programs are compiled
 !   with -std=legacy or -fallow-argument-mismatch, which make it a warning, and
 !   with -w, which silences that.
 ! - Tasks are compiled with -frecursive (the targets add it): otherwise gfortran

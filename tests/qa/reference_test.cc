@@ -55,7 +55,6 @@ Header ParseHeader(const std::string& text) {
       comment.clear();
     } else if (std::regex_match(found, match, kSection)) {
       section = match[1];
-      if (section.starts_with("The same with")) break;
     } else if (section.empty() && header.preamble.empty()) {
       header.preamble = CommentText(found.substr(1));
     } else {
@@ -114,6 +113,16 @@ std::string FortranCall(const std::string& module, const std::string& name) {
   return "CALL " + name + (arguments.empty() ? "" : "(" + arguments + ")");
 }
 
+// The comment at the beginning of the module.
+std::string FortranPreamble(const std::string& module) {
+  std::istringstream lines(module);
+  std::string text;
+  for (std::string line; std::getline(lines, line) && line[0] == '!';) {
+    text += (line.starts_with("! ") ? line.substr(2) : line.substr(1)) + "\n";
+  }
+  return text;
+}
+
 std::string MakeReference() {
   const Header header = ParseHeader(ReadFile("macrotask/cray.h"));
   const std::string module =
@@ -122,7 +131,8 @@ std::string MakeReference() {
       "# Reference of the Cray calls\n\n"
       "Made from [cray.h](cray.h) and [macrotask.f90](fortran/macrotask.f90) "
       "by tests/qa/reference_test.cc.\n\n```text\n" +
-      header.preamble + "\n```\n";
+      header.preamble + "\n```\n\n## Fortran\n\n```text\n" +
+      FortranPreamble(ReadFile("macrotask/fortran/macrotask.f90")) + "```\n";
   std::string section;
   for (const Routine& routine : header.routines) {
     if (routine.section != section) page += "\n## " + routine.section + "\n";
@@ -131,6 +141,11 @@ std::string MakeReference() {
             routine.prototype + "\n";
     const std::string fortran = FortranCall(module, routine.name);
     if (!fortran.empty()) page += "Fortran  " + fortran + "\n";
+    if (routine.name == "LOCKASGN" || routine.name == "EVASGN") {
+      page += "         only by `use macrotask`; without: CALL " +
+              routine.name + "(" +
+              (routine.name == "EVASGN" ? "event" : "lock") + ")\n";
+    }
     page += "\n" + routine.text + "\n```\n";
   }
   return page;
@@ -168,8 +183,9 @@ TEST(Reference, SaysSomethingOfEveryRoutineInBothLanguages) {
 
 // Every routine with a handle is there for handles of 32 bits as well.
 TEST(Header, HasBothWidthsOfHandles) {
-  const std::string text = ReadFile("macrotask/cray.h");
-  for (const Routine& routine : ParseHeader(text).routines) {
+  const std::string text = ReadFile("macrotask/cray_widths.h");
+  for (const Routine& routine :
+       ParseHeader(ReadFile("macrotask/cray.h")).routines) {
     if (!std::regex_search(routine.prototype, std::regex(R"(\(long\*)"))) {
       continue;
     }
