@@ -88,7 +88,12 @@ inline void Barrier::SyncUntraced() {
   }
 }
 
-Barrier::~Barrier() = default;
+Barrier::~Barrier() {
+  using Logical = std::unique_ptr<LogicalBarrier>;
+  auto* const logical = std::get_if<Logical>(&algorithm_);
+  // Tasks may still look at it.
+  if (caller_stops_program && logical != nullptr) (void)logical->release();
+}
 
 void Barrier::Sync() {
   RecordAround(TraceClass::kEvents, TraceAction::kBarrierSync,

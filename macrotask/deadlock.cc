@@ -80,8 +80,9 @@ bool HasUnknownPthread() {
 }
 
 // The second pass. Returns true if all tasks still are where the first one saw
-// them and no wait is over. Lists them in `tasks` unless that is null.
+// them, some wait and no wait is over. Lists them in `tasks` unless that is null.
 bool ConfirmAll(TaskRecord* first, std::vector<TaskStatus>* tasks) {
+  bool some_wait = false;
   for (TaskRecord* record = first; record != nullptr; record = record->next()) {
     const TaskRecord::Word word = record->seen;
     TaskStatus status = StatusOf(*record, word);
@@ -91,12 +92,13 @@ bool ConfirmAll(TaskRecord* first, std::vector<TaskStatus>* tasks) {
           all_over = is_over;
           NoteWait(what, &status);
         });
+    some_wait |= waits;
     if (all_over || (!waits && !(record->Read() == word))) return false;
     if (tasks != nullptr && word.state != TaskState::kNone) {
       tasks->push_back(status);
     }
   }
-  return TaskRegistry::TheOne().first() == first;
+  return some_wait && TaskRegistry::TheOne().first() == first;
 }
 
 }  // namespace

@@ -47,7 +47,12 @@ void GiveSlot(int slot) {
                          std::memory_order_release);
 }
 
-ExceptionState& ExceptionsOfPthread() {
+// What the compiler may not remember across a switch: a task is resumed by
+// another pthread when it runs its next body there.
+void ForgetThePthread() { asm volatile("" ::: "memory"); }
+
+[[gnu::noinline]] ExceptionState& ExceptionsOfPthread() {
+  ForgetThePthread();
   return *reinterpret_cast<ExceptionState*>(abi::__cxa_get_globals());
 }
 
@@ -102,9 +107,8 @@ std::exception_ptr LogicalProcessor::Run() {
   return failure;
 }
 
-// A task is resumed by another pthread when it runs its next body there: what
-// it knew before the switch may not be used after it.
 [[gnu::noinline]] LogicalProcessor& LogicalProcessor::Here() {
+  ForgetThePthread();
   return *processor_of_caller;
 }
 

@@ -27,6 +27,7 @@ C     before is not lost.
       ENDIF
       IF (WHAT .EQ. 'keyword') CALL TSKTUNE('MAXCPU', 1, 'SAMPLE', 2,
      &   'DBACTIVE', 3, 'HOLDTIME', 4, 'HOLDTIMES', 5)
+      IF (WHAT .EQ. 'novalue') CALL TSKTUNE('MAXCPU')
       IF (WHAT .EQ. 'value') CALL TSKTUNE('MAXCPU', -3)
       IF (WHAT .EQ. 'buftune') CALL BUFTUNE('LOCKS', 'MAYBE')
       IF (WHAT .EQ. 'bufuser') CALL BUFUSER(64, 0)

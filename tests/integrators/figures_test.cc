@@ -141,12 +141,15 @@ INSTANTIATE_TEST_SUITE_P(MethodsAndPolicies, Figures,
                          testing::Values(Case{"B1PC5", WaitPolicy::Block()},
                                          Case{"B1PC5", WaitPolicy::Spin()},
                                          Case{"B1PC5", WaitPolicy::Hold()},
+                                         Case{"B1PC5", WaitPolicy::Logical()},
                                          Case{"B2PC5", WaitPolicy::Block()},
                                          Case{"B2PC5", WaitPolicy::Spin()},
                                          Case{"B2PC5", WaitPolicy::Hold()},
+                                         Case{"B2PC5", WaitPolicy::Logical()},
                                          Case{"B4PC5", WaitPolicy::Block()},
                                          Case{"B4PC5", WaitPolicy::Spin()},
-                                         Case{"B4PC5", WaitPolicy::Hold()}),
+                                         Case{"B4PC5", WaitPolicy::Hold()},
+                                         Case{"B4PC5", WaitPolicy::Logical()}),
                          [](const auto& instance) {
                            return std::string(instance.param.method) + "_" +
                                   std::string(Name(instance.param.wait.kind));

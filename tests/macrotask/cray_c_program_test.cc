@@ -13,6 +13,7 @@
 
 #include "macrotask/clock.h"
 #include "macrotask/cray.h"
+#include "macrotask/cray/objects.h"
 #include "macrotask/cray/tuning.h"
 #include "macrotask/placement.h"
 #include "macrotask/trace.h"
@@ -91,9 +92,35 @@ TEST_F(CrayProgramTest, TheEnvironmentChoosesHowTasksWait) {
   setenv("MACROTASK_WAIT", "nonsense", 1);
   int lock = 0;
   EXPECT_EXIT(LOCKASGN(&lock), testing::ExitedWithCode(2),
-              Exactly("macrotask: MACROTASK_WAIT is 'nonsense': expected "
-                      "block, spin or hold\n"));
+              "^macrotask: LOCKASGN \\(task 1, at .*\\): MACROTASK_WAIT is "
+              "'nonsense': expected block, spin or hold\n$");
   unsetenv("MACROTASK_WAIT");
+}
+
+TEST_F(CrayProgramTest, EndsThoughWhatItsEndCallsIsABadCallAgain) {
+  const auto program = [] {
+    static int lock = 0;
+    static int event = 0;
+    LOCKASGN(&lock);
+    LOCKON(&lock);
+    std::atexit([] { LOCKREL(&lock); });
+    EVPOST(&event);
+  };
+  EXPECT_EXIT(program(), testing::ExitedWithCode(2),
+              "^macrotask: EVPOST [^\n]*\n$");
+}
+
+extern "C" void AddTo(long* sum, long addend) { *sum += addend; }
+
+TEST(CrayCppTest, StartsARoutineOfAnyArgumentsWithoutACast) {
+  long sum = 1;
+  long tca[2] = {2, 0};
+  int short_tca[2] = {2, 0};
+  TSKSTART(tca, AddTo, &sum, 20L);
+  TSKWAIT(tca);
+  TSKSTART(short_tca, AddTo, &sum, 300L);
+  TSKWAIT(short_tca);
+  EXPECT_EQ(sum, 321);
 }
 
 class TsktuneTest : public testing::Test {
@@ -120,6 +147,24 @@ class TsktuneTest : public testing::Test {
  private:
   std::uint64_t begin_;
 };
+
+// Also of objects that were released, or are assigned again.
+TEST_F(TsktuneTest, HoldTimeIsThatOfTheLastAssignment) {
+  const auto hold_time_of = [](int lock) {
+    return cray::LockOf(lock).policy().hold_time;
+  };
+  int first = 0, second = 0, third = 0;
+  TSKTUNE("HOLDTIME", 3L);
+  LOCKASGN(&first);
+  LOCKASGN(&second);
+  TSKTUNE("HOLDTIME", 7L);
+  LOCKREL(&first);
+  LOCKASGN(&third);
+  EXPECT_EQ(hold_time_of(third), std::chrono::microseconds(7));
+  EXPECT_EQ(hold_time_of(second), std::chrono::microseconds(3));
+  LOCKASGN(&second);
+  EXPECT_EQ(hold_time_of(second), std::chrono::microseconds(7));
+}
 
 TEST_F(TsktuneTest, TakesOnePair) {
   TSKTUNE("HOLDTIME", 123);
