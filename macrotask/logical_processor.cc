@@ -136,6 +136,12 @@ void LogicalProcessor::Finish() {
   task->next->previous = task->previous;
   task->previous->next = task->next;
   --num_left_;
+  // The pthread must be seen to run before its last task is seen to have ended,
+  // and not while it only waits for the others.
+  if (num_left_ == 0) pthread_.record->SetRunning(pthread_.number);
+  if (num_left_ > 0 || !task->has_record_of_pthread) {
+    task->record->SetComplete();
+  }
   SwitchTo(num_left_ == 0 ? &pthread_ : NextTurn(task->next));
 }
 

@@ -60,7 +60,6 @@ void LogicalTask::RunBody() {
   }
   if (!has_record_of_pthread) {
     RecordIf(TraceClass::kTasks, TraceAction::kTaskEnd, 0);
-    record->SetComplete();
   }
 }
 

@@ -16,6 +16,7 @@
 #include "macrotask/task.h"
 #include "macrotask/task_list.h"
 #include "macrotask/worker_pool.h"
+#include "tests/macrotask/process.h"
 
 namespace macrotask {
 namespace {
@@ -175,6 +176,23 @@ TEST(LogicalTaskTest, IsListed) {
       },
       WaitPolicy::Logical());
   EXPECT_GE(num_listed, static_cast<std::size_t>(num_tasks));
+}
+
+using LogicalDeadlockTest = InOwnProcess<testing::Test>;
+
+TEST_F(LogicalDeadlockTest, IsFoundAfterTheFirstTasksOfAllPthreadsHaveEnded) {
+  const auto program = [] {
+    static Event never(WaitPolicy::Logical());
+    const int num_tasks = 3 * NumProcessors();
+    RunTasks(
+        num_tasks,
+        [](int task) {
+          if (task % 3 != 0) never.Wait();
+        },
+        WaitPolicy::Logical());
+  };
+  EXPECT_EXIT(program(), testing::ExitedWithCode(3),
+              "waiting for event 1\n(.*\n)*Deadlock");
 }
 
 TEST(LogicalTaskTest, IsUsedAgainByLaterRuns) {
