@@ -1,0 +1,9 @@
+#pragma once
+
+// In place of macrotask/load.h.
+
+namespace macrotask {
+
+inline bool MoreTasksThanProcessors() { return false; }
+
+}  // namespace macrotask

@@ -1,0 +1,21 @@
+#pragma once
+
+// In place of macrotask/trace_point.h: nothing is traced.
+
+#include <cstdint>
+
+#include "macrotask/trace_record.h"
+
+namespace macrotask {
+
+inline std::uint64_t TraceData(std::uint32_t, std::uint64_t = 0) { return 0; }
+
+inline void RecordIf(TraceClass, TraceAction, std::uint64_t) {}
+
+template <typename Wait>
+void RecordAround(TraceClass, TraceAction, TraceAction, std::uint64_t,
+                  const Wait& wait) {
+  wait();
+}
+
+}  // namespace macrotask
