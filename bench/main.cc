@@ -13,6 +13,7 @@
 #include "bench/report.h"
 #include "bench/reproduce.h"
 #include "bench/simulate.h"
+#include "bench/sync_command.h"
 #include "bench/trace_command.h"
 
 namespace bench {
@@ -34,10 +35,11 @@ void AddWaitOptions(CLI::App* app, WaitOptions* wait) {
   AddChoice<macrotask::WaitKind>(
       app, "--wait", &wait->kind,
       ByName({macrotask::WaitKind::kBlock, macrotask::WaitKind::kSpin,
-              macrotask::WaitKind::kHold}),
+              macrotask::WaitKind::kHold, macrotask::WaitKind::kLogical}),
       "How a task waits: block sleeps (pthread barriers, condition variables), "
       "spin asks again and again, hold (the default) spins for the hold time, "
-      "then sleeps");
+      "then sleeps, logical gives its turn to the next task of its processor, "
+      "in user space");
   app->add_option("--hold-time", wait->hold_time_us,
                   "Hold time in microseconds")
       ->check(CLI::Range(0, 1'000'000))
@@ -147,7 +149,8 @@ int Main(int argc, char** argv) {
       "\n"
       "  macrotask reproduce     their experiment, Tables 1 and 2\n"
       "  macrotask simulate      one run of it, as you like\n"
-      "  macrotask trace         read a history trace\n",
+      "  macrotask trace         read a history trace\n"
+      "  macrotask sync          what synchronization costs on this machine\n",
       "macrotask"};
   app.set_version_flag("--version",
                        fmt::format("macrotask {} ({})", kVersion, kGitHash));
@@ -172,11 +175,16 @@ int Main(int argc, char** argv) {
   CLI::App* trace_app = app.add_subcommand("trace", TraceCommand::kDescription);
   trace.Add(trace_app);
 
+  SyncCommand sync;
+  CLI::App* sync_app = app.add_subcommand("sync", SyncCommand::kDescription);
+  sync.Add(sync_app);
+
   try {
     app.parse(argc, argv);
     if (reproduce_app->parsed()) reproduce.Run();
     if (simulate_app->parsed()) simulate.Run();
     if (trace_app->parsed()) trace.Run();
+    if (sync_app->parsed()) sync.Run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     fmt::print(stderr, "macrotask: {}\n", error.what());

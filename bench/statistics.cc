@@ -32,6 +32,25 @@ Interval MedianInterval(std::vector<double> samples) {
   return {samples[rank], samples[samples.size() - 1 - rank]};
 }
 
+double Percentile(std::vector<double> samples, double p) {
+  if (samples.empty()) throw std::invalid_argument("no samples");
+  std::sort(samples.begin(), samples.end());
+  const double place =
+      std::clamp(p, 0.0, 1.0) * static_cast<double>(samples.size() - 1);
+  const double below = std::floor(place);
+  const auto i = static_cast<std::size_t>(below);
+  if (i + 1 == samples.size()) return samples.back();
+  return samples[i] + (place - below) * (samples[i + 1] - samples[i]);
+}
+
+Summary Summarize(const std::vector<double>& samples) {
+  return {.median = Median(samples),
+          .interval = MedianInterval(samples),
+          .min = Percentile(samples, 0),
+          .p95 = Percentile(samples, 0.95),
+          .n = static_cast<int>(samples.size())};
+}
+
 std::vector<double> Ratios(const std::vector<double>& a,
                            const std::vector<double>& b) {
   if (a.size() != b.size()) {

@@ -21,6 +21,21 @@ double Median(std::vector<double> samples);
 // fewer than six samples there is none; then the range of all samples.
 Interval MedianInterval(std::vector<double> samples);
 
+// The value that the share `p` in [0, 1] of the samples does not exceed,
+// interpolated between neighbours: 0 gives the least, 1 the greatest. Requires at
+// least one sample.
+double Percentile(std::vector<double> samples, double p);
+
+// What a table says of samples.
+struct Summary {
+  double median;
+  Interval interval;  // of the median, 95 %
+  double min;
+  double p95;
+  int n;
+};
+Summary Summarize(const std::vector<double>& samples);
+
 // a[i] / b[i].
 std::vector<double> Ratios(const std::vector<double>& a,
                            const std::vector<double>& b);

@@ -81,7 +81,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
                  "unknown --figure '2': expected one of figure2, figure3, "
                  "figure7, figure8, serial");
   ExpectRejected("simulate --wait never",
-                 "unknown --wait 'never': expected one of block, hold, spin");
+                 "unknown --wait 'never': expected one of block, hold, logical, spin");
   ExpectRejected("reproduce --csv x --json x",
                  "--csv and --json both write to 'x'");
   ExpectRejected("simulate --output /tmp",

@@ -45,6 +45,26 @@ TEST(MedianInterval, OfFewSamplesIsTheirRange) {
   EXPECT_EQ(interval.high, 5);
 }
 
+TEST(Percentile, InterpolatesBetweenNeighbours) {
+  EXPECT_EQ(Percentile({30, 10, 20}, 0), 10);
+  EXPECT_EQ(Percentile({30, 10, 20}, 0.5), 20);
+  EXPECT_EQ(Percentile({30, 10, 20}, 0.75), 25);
+  EXPECT_EQ(Percentile({30, 10, 20}, 1), 30);
+  EXPECT_EQ(Percentile({7}, 0.95), 7);
+  EXPECT_THROW(Percentile({}, 0.5), std::invalid_argument);
+}
+
+TEST(Summarize, SaysWhatItsPartsSay) {
+  const std::vector<double> samples = {5, 1, 3, 2, 4};
+  const Summary summary = Summarize(samples);
+  EXPECT_EQ(summary.median, 3);
+  EXPECT_EQ(summary.interval.low, MedianInterval(samples).low);
+  EXPECT_EQ(summary.interval.high, MedianInterval(samples).high);
+  EXPECT_EQ(summary.min, 1);
+  EXPECT_NEAR(summary.p95, 4.8, 1e-12);
+  EXPECT_EQ(summary.n, 5);
+}
+
 TEST(Ratios, AreTakenPairByPair) {
   EXPECT_EQ(Ratios({2, 9}, {1, 3}), (std::vector<double>{2, 3}));
   EXPECT_THROW(Ratios({1}, {}), std::invalid_argument);

@@ -1,0 +1,106 @@
+// macrotask sync as its users see it, with as little measuring as possible.
+
+#include <gtest/gtest.h>
+#include <stdio.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace {
+
+struct Outcome {
+  int exit_code;
+  std::string text;  // both outputs
+};
+
+Outcome RunSync(const std::string& arguments, const std::string& before = "") {
+  const std::string command =
+      before + "'" PROGRAM "' sync " + arguments + " 2>&1 </dev/null";
+  FILE* const pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {-1, "popen"};
+  Outcome outcome = {0, ""};
+  char buffer[4096];
+  while (fgets(buffer, sizeof buffer, pipe) != nullptr) outcome.text += buffer;
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+bool Has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+constexpr const char* kShort = " --repetitions 1 --tasks 2 --work 0";
+
+TEST(SyncCli, MeasuresEveryFamily) {
+  const Outcome outcome = RunSync(kShort);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  for (const char* row :
+       {"| BARSYNC ", "| EVPOST to EVWAIT ", "| LOCKON + LOCKOFF ",
+        "| LOCKTEST, set ", "| TSKSTART + TSKWAIT, after a rest ",
+        "| pthread_barrier_t ", "| std::barrier ", "| libgomp ", "| libomp ",
+        "| bare pairwise flags ", "| cache line there and back "}) {
+    EXPECT_TRUE(Has(outcome.text, row)) << row << "\n" << outcome.text;
+  }
+}
+
+TEST(SyncCli, MeasuresMoreTasksThanProcessors) {
+  const Outcome outcome =
+      RunSync("--repetitions 1 --tasks 4 --work 0 --constructs barrier,event");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(Has(outcome.text, "| BARSYNC ")) << outcome.text;
+}
+
+TEST(SyncCli, WritesJson) {
+  const Outcome outcome =
+      RunSync("--constructs limit --repetitions 1 --placement free --json -");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  const auto json = nlohmann::json::parse(outcome.text);
+  EXPECT_EQ(json["context"]["placement"], "free");
+  EXPECT_FALSE(json["benchmarks"].empty());
+}
+
+TEST(SyncCli, LateArriverIsARowOfItsOwn) {
+  const Outcome outcome =
+      RunSync("--constructs barrier --wait hold --skew zero,late --csv -" +
+              std::string(kShort));
+  EXPECT_TRUE(Has(outcome.text, "barrier,BARSYNC,hold,2,0,late,"))
+      << outcome.text;
+  EXPECT_TRUE(Has(outcome.text, "barrier,BARSYNC,hold,2,0,zero,"))
+      << outcome.text;
+}
+
+TEST(SyncCli, MeasuresWhatOneProcessorCan) {
+  const Outcome outcome =
+      RunSync("--constructs barrier,limit --wait block" + std::string(kShort),
+              "taskset -c 0 ");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(Has(outcome.text, "| needs 2 processors ")) << outcome.text;
+}
+
+TEST(SyncCli, BreakEvenNeedsTwoProcessors) {
+  const Outcome outcome = RunSync("--break-even", "taskset -c 0 ");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.text,
+            "macrotask: --break-even needs 2 processors: this process may use "
+            "1\n");
+}
+
+TEST(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
+  for (const char* arguments :
+       {"--wait never", "--wait ''", "--tasks 0", "--tasks two", "--tasks 1000",
+        "--work -1", "--work x", "--skew early", "--placement here",
+        "--constructs mutex", "--constructs barrier --tasks 1",
+        "--constructs barrier,mutex", "--repetitions 0", "--hold-time -1",
+        "--csv x --json x", "--csv /none/x", "--barrier"}) {
+    const Outcome outcome = RunSync(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_TRUE(outcome.text.starts_with("macrotask: ")) << outcome.text;
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1)
+        << outcome.text;
+  }
+}
+
+}  // namespace
