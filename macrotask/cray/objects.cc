@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "macrotask/cray/handle_table.h"
 #include "macrotask/cray/tuning.h"
@@ -146,8 +147,9 @@ std::uint32_t AssignLock(std::int64_t old) {
   } else {
     CheckNobodyWaits(lock->num_waiting(), "for the lock");
     if (!IsTuned(*lock)) {
-      lock = TakeFree(&tables.free_locks);
+      Lock* const before = std::exchange(lock, TakeFree(&tables.free_locks));
       tables.locks.Replace(old, lock);
+      tables.free_locks.push_back(before);
     }
   }
   RecordIf(TraceClass::kLocks, TraceAction::kLockAssign,
@@ -165,8 +167,9 @@ std::uint32_t AssignEvent(std::int64_t old) {
     event = TakeFree(&tables.free_events);
     handle = tables.events.Assign(event);
   } else if (!IsTuned(*event) && NumWaitingFor(*event) == 0) {
-    event = TakeFree(&tables.free_events);
+    Event* const before = std::exchange(event, TakeFree(&tables.free_events));
     tables.events.Replace(old, event);
+    tables.free_events.push_back(before);
   }
   RecordIf(TraceClass::kEvents, TraceAction::kEventAssign,
            TraceData(event->number()));
