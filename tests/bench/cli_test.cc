@@ -80,8 +80,9 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
   ExpectRejected("simulate --figure 2",
                  "unknown --figure '2': expected one of figure2, figure3, "
                  "figure7, figure8, serial");
-  ExpectRejected("simulate --wait never",
-                 "unknown --wait 'never': expected one of block, hold, logical, spin");
+  ExpectRejected(
+      "simulate --wait never",
+      "unknown --wait 'never': expected one of block, hold, logical, spin");
   ExpectRejected("reproduce --csv x --json x",
                  "--csv and --json both write to 'x'");
   ExpectRejected("simulate --output /tmp",
