@@ -46,7 +46,8 @@ class BlockingBarrier {
 // Memory ordering: what any task wrote before its k-th Sync() is visible to
 // every task after its own k-th Sync() returns.
 // Cost: one atomic increment per task and one line that all waiters read; under
-// WaitPolicy::Block() a pthread_barrier_t (bench row "BARSYNC").
+// WaitPolicy::Block() a pthread_barrier_t, under WaitPolicy::Logical() one line
+// a processor (bench row "BARSYNC").
 //
 //   Barrier barrier(num_tasks);
 //   RunTasks(num_tasks, [&](int task) {

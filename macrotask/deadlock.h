@@ -19,8 +19,9 @@ inline constexpr int kDeadlockExitCode = 3;
 // sleep for that reason does not look again.
 //
 // Use: any task, at any time.
-// Cost: nothing for a wait that is over within half a microsecond, some 50 ns
-// for one that sleeps (bench row "BARSYNC, no deadlock detection").
+// Cost: nothing for a wait that is over within half a microsecond; for a longer
+// one two atomic stores and a look at the others (bench rows "BARSYNC" and
+// "BARSYNC, no deadlock detection").
 void SetDeadlockDetection(bool on);
 
 // Internal: ends the program if no task can run. Called by a task that has

@@ -16,8 +16,8 @@ class LogicalBarrier;
 // Use: everything by tasks of this processor, or by the pthread itself before
 // and after Run().
 // Memory ordering: tasks of one processor see what the others wrote before.
-// Cost: a turn is a switch of stacks, some 10 ns, and a look at what the next
-// task waits for (bench row "BARSYNC").
+// Cost: a turn is a switch of stacks and a look at what the next task waits for
+// (bench row "BARSYNC").
 class LogicalProcessor {
  public:
   LogicalProcessor();
