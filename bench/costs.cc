@@ -173,7 +173,8 @@ std::vector<Cost> MeasureSynchronization(macrotask::WaitPolicy wait,
          task.Wait();
        })});
   if (macrotask::NumProcessors() >= 2) {
-    const int calls = wait.kind == macrotask::WaitKind::kBlock ? 100 : 10000;
+    // So many that starting the tasks does not count.
+    const int calls = wait.kind == macrotask::WaitKind::kBlock ? 300 : 100'000;
     const auto barsync = [wait](int n) {
       macrotask::Barrier barrier(2, wait);
       RunTasks(
