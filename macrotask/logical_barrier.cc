@@ -1,7 +1,5 @@
 #include "macrotask/logical_barrier.h"
 
-#include <bit>
-
 #include "macrotask/logical_wait.h"
 #include "macrotask/spin_then_sleep.h"
 
@@ -22,17 +20,12 @@
 
 namespace macrotask {
 
-std::uint64_t LogicalBarrier::NumArrivals() const {
-  // Acquire: partner of the release in Publish() and SyncOfPthread().
-  std::uint64_t sum = of_pthreads_.arrivals.load(std::memory_order_acquire);
-  std::uint64_t slots = slots_.load(std::memory_order_acquire);
-  for (; slots != 0; slots &= slots - 1) {
-    sum += lines_[std::countr_zero(slots)].arrivals.load(
-        std::memory_order_acquire);
-  }
-  return sum;
+std::uint64_t LogicalBarrier::EndOfPhase() const {
+  return (NumArrivals() / num_tasks_ + 1) * num_tasks_;
 }
 
+// Each of the functions ends in the call of the next one, which is a jump:
+// nothing is left on the stack of a task that waits but the wait.
 void LogicalBarrier::Sync() {
   if (num_tasks_ == 1) return;
   LogicalProcessor* const processor = processor_of_caller;
@@ -40,44 +33,55 @@ void LogicalBarrier::Sync() {
     return SyncOfPthread();
   }
   Count& count = counts_[processor->slot()];
-  if (count.pending == 0) {
-    const std::uint64_t end = (NumArrivals() / num_tasks_ + 1) * num_tasks_;
-    if (end != count.end_of_phase) {
-      count.expected = count.arrived;
-      count.arrived = 0;
-      count.end_of_phase = end;
-    }
+  if (count.pending == 0) return SyncFirst(processor, count);
+  SyncNext(processor, count);
+}
+
+void LogicalBarrier::SyncFirst(LogicalProcessor* processor, Count& count) {
+  const std::uint64_t end = EndOfPhase();
+  if (end != count.end_of_phase) {
+    count.expected = count.arrived;
+    count.arrived = 0;
+    count.end_of_phase = end;
   }
-  const std::uint64_t end_of_phase = count.end_of_phase;
-  ++count.arrived;
-  if (++count.pending == 1) processor->FlushLater(this);
-  if (count.arrived == count.expected) Publish(processor);
-  Wait(end_of_phase);
+  processor->FlushLater(this);
+  SyncNext(processor, count);
+}
+
+inline void LogicalBarrier::SyncNext(LogicalProcessor* processor,
+                                     Count& count) {
+  ++count.pending;
+  if (++count.arrived == count.expected) return SyncLast(processor, count);
+  processor->WaitAt(*this, count.end_of_phase, waited_);
+}
+
+void LogicalBarrier::SyncLast(LogicalProcessor* processor, Count& count) {
+  Publish(processor);
+  if (IsPast(count.end_of_phase, processor->slot())) return;
+  processor->WaitAt(*this, count.end_of_phase, waited_);
 }
 
 void LogicalBarrier::SyncOfPthread() {
-  const std::uint64_t end_of_phase =
-      (NumArrivals() / num_tasks_ + 1) * num_tasks_;
+  const std::uint64_t end_of_phase = EndOfPhase();
+  TakePart(kSlotOfPthreads);
   // Release: partner of the acquire in NumArrivals().
-  of_pthreads_.arrivals.fetch_add(1, std::memory_order_release);
-  Wait(end_of_phase);
+  lines_[kSlotOfPthreads].arrivals.fetch_add(1, std::memory_order_release);
+  SpinThenSleep(
+      WaitPolicy::Spin(), waited_, [&] { return IsPast(end_of_phase); }, [] {});
 }
 
-void LogicalBarrier::Wait(std::uint64_t end_of_phase) {
-  SpinThenSleep(
-      WaitPolicy::Spin(), waited_,
-      [&] { return NumArrivals() >= end_of_phase; }, [] {});
+void LogicalBarrier::TakePart(int slot) {
+  const std::uint64_t bit = std::uint64_t{1} << slot;
+  if (slots_.load(std::memory_order_relaxed) & bit) return;
+  // Release: whoever then adds up the lines sees this one's slot.
+  slots_.fetch_or(bit, std::memory_order_release);
 }
 
 void LogicalBarrier::Publish(LogicalProcessor* processor) {
   const int slot = processor->slot();
   Count& count = counts_[slot];
   std::atomic<std::uint64_t>& arrivals = lines_[slot].arrivals;
-  const std::uint64_t bit = std::uint64_t{1} << slot;
-  if (!(slots_.load(std::memory_order_relaxed) & bit)) {
-    // Release: whoever then adds up the lines sees this one's slot.
-    slots_.fetch_or(bit, std::memory_order_release);
-  }
+  TakePart(slot);
   // Release: partner of the acquire in NumArrivals().
   arrivals.store(arrivals.load(std::memory_order_relaxed) + count.pending,
                  std::memory_order_release);

@@ -16,6 +16,7 @@
 #include "macrotask/logical_wait.h"
 #include "macrotask/placement.h"
 #include "macrotask/spin_then_sleep.h"
+#include "macrotask/stack_switch.h"
 #include "macrotask/task.h"
 #include "macrotask/task_registry.h"
 #include "macrotask/trace_point.h"
@@ -47,13 +48,15 @@ void GiveSlot(int slot) {
                          std::memory_order_release);
 }
 
-// What the compiler may not remember across a switch: a task is resumed by
-// another pthread when it runs its next body there.
-void ForgetThePthread() { asm volatile("" ::: "memory"); }
-
-[[gnu::noinline]] ExceptionState& ExceptionsOfPthread() {
-  ForgetThePthread();
+// The pthread's own, which the tasks of a processor never leave.
+ExceptionState& ExceptionsOfPthread() {
   return *reinterpret_cast<ExceptionState*>(abi::__cxa_get_globals());
+}
+
+// Whether the barrier at which `task` waits is past the end of its phase.
+bool BarrierIsPast(const void* task) {
+  const auto* const waiter = static_cast<const LogicalTask*>(task);
+  return waiter->barrier->IsPast(waiter->end_of_phase);
 }
 
 }  // namespace
@@ -67,6 +70,7 @@ LogicalProcessor::~LogicalProcessor() {
 
 void LogicalProcessor::Add(const std::function<void(int)>& body, int index) {
   LogicalTask* const task = LogicalTask::Take();
+  task->processor = this;
   task->body = &body;
   task->index = index;
   task->failure = nullptr;
@@ -90,6 +94,8 @@ void LogicalProcessor::Add(const std::function<void(int)>& body, int index) {
 }
 
 std::exception_ptr LogicalProcessor::Run() {
+  exceptions_ = &ExceptionsOfPthread();
+  pthread_.processor = this;
   pthread_.annotations.Adopt();
   pthread_.record = &RecordOfCaller();
   pthread_.number = number_of_caller;
@@ -107,27 +113,34 @@ std::exception_ptr LogicalProcessor::Run() {
   return failure;
 }
 
-[[gnu::noinline]] LogicalProcessor& LogicalProcessor::Here() {
-  ForgetThePthread();
-  return *processor_of_caller;
-}
-
 // By the stack that was switched to: the one that it came from can be resumed
 // from now on.
-void LogicalProcessor::Arrive(boost::context::fiber&& from) {
-  LogicalProcessor& here = Here();
-  here.previous_->context = std::move(from);
-  here.current_->annotations.Enter(&here.previous_->annotations);
-  ExceptionsOfPthread() = here.current_->exceptions;
+inline void LogicalProcessor::Arrive(Stack from) {
+  previous_->context = from;
+  current_->annotations.Enter(&previous_->annotations);
+  *exceptions_ = current_->exceptions;
 }
 
-void LogicalProcessor::SwitchTo(LogicalTask* task) {
-  previous_ = std::exchange(current_, task);
+inline void LogicalProcessor::SwitchTo(LogicalTask* task) {
+  LogicalTask* const self = current_;
+  previous_ = self;
+  current_ = task;
   record_of_caller = task->record;
   number_of_caller = task->number;
-  previous_->exceptions = ExceptionsOfPthread();
-  previous_->annotations.Leave(task->annotations);
-  Arrive(std::move(task->context).resume());
+  self->exceptions = *exceptions_;
+  self->annotations.Leave(task->annotations);
+  const Stack from = SwitchStack(task->context, task).fctx;
+  // Not `this`: one whose body had ended may be of another processor by now.
+  self->processor->Arrive(from);
+}
+
+void LogicalProcessor::RunBodies(boost::context::detail::transfer_t from) {
+  auto* const task = static_cast<LogicalTask*>(from.data);
+  task->processor->Arrive(from.fctx);
+  for (;;) {
+    task->RunBody();
+    task->processor->Finish();
+  }
 }
 
 // By a task whose body has ended. Returns when it is given another one.
@@ -156,6 +169,16 @@ void LogicalProcessor::Wait(const WaitedObject& what,
   task->is_over = nullptr;
 }
 
+void LogicalProcessor::WaitAt(LogicalBarrier& barrier,
+                              std::uint64_t end_of_phase,
+                              const WaitedObject& what) {
+  LogicalTask* const task = current_;
+  task->barrier = &barrier;
+  task->end_of_phase = end_of_phase;
+  Wait(what, &BarrierIsPast, task);
+  task->barrier = nullptr;
+}
+
 void LogicalProcessor::Yield() {
   Flush();
   LogicalTask* const task = current_;
@@ -168,34 +191,63 @@ void LogicalProcessor::Yield() {
 }
 
 // The first in the ring, from `first` on, that can go on; null if none can.
-LogicalTask* LogicalProcessor::FindRunnable(LogicalTask* first) const {
+// Neighbours often wait for the same phase: one of them asks, and if that is
+// all of them, `one_for_all` is it.
+inline LogicalTask* LogicalProcessor::FindRunnable(
+    LogicalTask* first, LogicalTask** one_for_all) const {
+  LogicalTask* asked = nullptr;
+  int num_asked = 0;
   LogicalTask* task = first;
   do {
-    if (task->CanRun()) return task;
+    if (task->is_over == nullptr) return task;
+    if (asked == nullptr || !task->WaitsLike(*asked)) {
+      if (IsOver(*task)) return task;
+      asked = task;
+      ++num_asked;
+    }
     task = task->next;
   } while (task != first);
+  *one_for_all = num_asked == 1 ? first : nullptr;
   return nullptr;
+}
+
+inline bool LogicalProcessor::IsOver(const LogicalTask& task) const {
+  return task.barrier != nullptr
+             ? task.barrier->IsPast(task.end_of_phase, slot_)
+             : task.is_over(task.wait);
 }
 
 LogicalTask* LogicalProcessor::NextTurn(LogicalTask* first) {
   // As long as there is always another task that can go on, others would wait
   // for ever for what is not flushed.
   if (!unflushed_.empty() && ++num_turns_ > num_left_) Flush();
-  LogicalTask* const task = FindRunnable(first);
-  return task != nullptr ? task : AwaitRunnable(first);
+  LogicalTask* one_for_all = nullptr;
+  LogicalTask* const task = FindRunnable(first, &one_for_all);
+  return task != nullptr ? task : AwaitRunnable(first, one_for_all);
 }
 
 // All tasks of this processor wait for those of others.
-LogicalTask* LogicalProcessor::AwaitRunnable(LogicalTask* first) {
+LogicalTask* LogicalProcessor::AwaitRunnable(LogicalTask* first,
+                                             LogicalTask* one_for_all) {
   using Clock = std::chrono::steady_clock;
   Flush();
-  LogicalTask* task = nullptr;
   Clock::time_point start;
-  for (int round = 1; (task = FindRunnable(first)) == nullptr; ++round) {
-    Pause();
+  for (int looks = 0;; ++looks) {
+    for (int i = 0; i < kPausesPerLook; ++i) {
+      LogicalTask* task = nullptr;
+      if (one_for_all == nullptr) {
+        task = FindRunnable(first, &one_for_all);
+      } else if (IsOver(*one_for_all)) {
+        task = one_for_all;
+      }
+      if (task != nullptr) {
+        if (waits_are_published_) EndWaits();
+        return task;
+      }
+      Pause();
+    }
     // The first look only starts the clock: short waits never read it.
-    if (round % kPausesPerLook != 0) continue;
-    if (round == kPausesPerLook) start = Clock::now();
+    if (looks == 0) start = Clock::now();
     const auto waited = Clock::now() - start;
     if (waited < kDefaultHoldTime) continue;
     if (!waits_are_published_) PublishWaits();
@@ -208,8 +260,6 @@ LogicalTask* LogicalProcessor::AwaitRunnable(LogicalTask* first) {
       nanosleep(&kNap, nullptr);
     }
   }
-  if (waits_are_published_) EndWaits();
-  return task;
 }
 
 void LogicalProcessor::PublishWaits() {

@@ -38,6 +38,10 @@ class LogicalProcessor {
   void Wait(const WaitedObject& what, TaskRecord::IsOver is_over,
             const void* wait);
 
+  // The same, for the barrier to be past the end of a phase.
+  void WaitAt(LogicalBarrier& barrier, std::uint64_t end_of_phase,
+              const WaitedObject& what);
+
   // Lets the next task that can go on have a turn.
   void Yield();
 
@@ -48,20 +52,26 @@ class LogicalProcessor {
 
   // A number below kMostSlots that no other processor has at the same time, or
   // kNoSlot if there are more.
-  static constexpr int kMostSlots = 64;
+  static constexpr int kMostSlots = 63;
   static constexpr int kNoSlot = -1;
   int slot() const { return slot_; }
 
  private:
   friend struct LogicalTask;
 
-  static LogicalProcessor& Here();
-  static void Arrive(boost::context::fiber&& from);
+  using Stack = boost::context::detail::fcontext_t;
+
+  // What a task does on its own stack, for ever. `from` is who switched to it
+  // first, with the task.
+  static void RunBodies(boost::context::detail::transfer_t from);
+  void Arrive(Stack from);
   void SwitchTo(LogicalTask* task);
   void Finish();
-  LogicalTask* FindRunnable(LogicalTask* first) const;
+  bool IsOver(const LogicalTask& task) const;
+  LogicalTask* FindRunnable(LogicalTask* first,
+                            LogicalTask** one_for_all) const;
   LogicalTask* NextTurn(LogicalTask* first);
-  LogicalTask* AwaitRunnable(LogicalTask* first);
+  LogicalTask* AwaitRunnable(LogicalTask* first, LogicalTask* one_for_all);
   void PublishWaits();
   void EndWaits();
   void Flush();
@@ -69,10 +79,11 @@ class LogicalProcessor {
   const int slot_;
   std::vector<LogicalTask*> tasks_;  // in the order of Add()
   LogicalTask* current_ = nullptr;
-  LogicalTask* previous_ = nullptr;  // who switched to current_
-  LogicalTask pthread_{0};           // the stack that called Run()
-  int num_left_ = 0;                 // in the ring
-  int num_turns_ = 0;                // since the last Flush()
+  LogicalTask* previous_ = nullptr;       // who switched to current_
+  LogicalTask pthread_{0};                // the stack that called Run()
+  int num_left_ = 0;                      // in the ring
+  ExceptionState* exceptions_ = nullptr;  // those of the pthread
+  int num_turns_ = 0;                     // since the last Flush()
   bool waits_are_published_ = false;
   std::vector<LogicalBarrier*> unflushed_;
 };

@@ -1,8 +1,6 @@
 #include "macrotask/logical_task.h"
 
-#include <boost/context/preallocated.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
-#include <memory>
 #include <utility>
 
 #include "macrotask/logical_processor.h"
@@ -31,21 +29,11 @@ Parked& TheParked() {
 
 LogicalTask::LogicalTask(std::size_t size) : stack_size(size) {
   if (size == 0) return;  // the stack of a pthread
-  namespace context_of = boost::context;
-  context_of::protected_fixedsize_stack allocator(size);
-  const context_of::stack_context stack = allocator.allocate();
+  const auto stack = boost::context::protected_fixedsize_stack(size).allocate();
   annotations.Make();
   annotations.SetStack(static_cast<char*>(stack.sp) - stack.size, stack.size);
-  context = context_of::fiber(
-      std::allocator_arg, context_of::preallocated(stack.sp, stack.size, stack),
-      allocator, [this](context_of::fiber&& from) {
-        LogicalProcessor::Arrive(std::move(from));
-        for (;;) {
-          RunBody();
-          LogicalProcessor::Here().Finish();
-        }
-        return context_of::fiber();  // never reached: it is parked for ever
-      });
+  context = boost::context::detail::make_fcontext(stack.sp, stack.size,
+                                                  &LogicalProcessor::RunBodies);
 }
 
 void LogicalTask::RunBody() {

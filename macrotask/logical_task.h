@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boost/context/fiber.hpp>
+#include <boost/context/detail/fcontext.hpp>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -9,6 +9,9 @@
 #include "macrotask/task_record.h"
 
 namespace macrotask {
+
+class LogicalBarrier;
+class LogicalProcessor;
 
 // Internal: what the C++ runtime keeps for every pthread and would have to keep
 // for every stack (__cxa_eh_globals of the Itanium C++ ABI).
@@ -31,12 +34,14 @@ struct LogicalTask {
   static LogicalTask* Take();
   static void Give(LogicalTask* task);
 
-  boost::context::fiber context;  // where it goes on; empty while it runs
+  // Where it goes on; not while it runs.
+  boost::context::detail::fcontext_t context = nullptr;
   std::size_t stack_size;
   FiberAnnotations annotations;
 
   // Of the body that it runs.
   void RunBody();
+  LogicalProcessor* processor = nullptr;
   const std::function<void(int)>* body = nullptr;
   int index = 0;
   std::exception_ptr failure;
@@ -44,18 +49,25 @@ struct LogicalTask {
   bool has_record_of_pthread = false;  // that of the pthread's own task
   std::uint32_t number = 0;
 
-  // Of its wait; none while is_over is null.
+  // Of its wait; none while is_over is null. At a LogicalBarrier it is over
+  // once the barrier is past `end_of_phase`; `barrier` is null otherwise.
   TaskRecord::IsOver is_over = nullptr;
   const void* wait = nullptr;
   const WaitedObject* what = nullptr;
+  LogicalBarrier* barrier = nullptr;
+  std::uint64_t end_of_phase = 0;
+
+  // For the same phase of the same barrier.
+  bool WaitsLike(const LogicalTask& other) const {
+    return barrier != nullptr && barrier == other.barrier &&
+           end_of_phase == other.end_of_phase;
+  }
 
   // What the C++ runtime knows of the exceptions being handled on this stack.
   ExceptionState exceptions;
 
   LogicalTask* next = nullptr;  // in the ring of its processor, or parked
   LogicalTask* previous = nullptr;
-
-  bool CanRun() const { return is_over == nullptr || is_over(wait); }
 };
 
 }  // namespace macrotask
