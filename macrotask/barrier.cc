@@ -6,6 +6,7 @@
 #include "macrotask/check.h"
 #include "macrotask/logical_barrier.h"
 #include "macrotask/logical_wait.h"
+#include "macrotask/placement.h"
 #include "macrotask/program_end.h"
 #include "macrotask/published_wait.h"
 #include "macrotask/trace_point.h"
@@ -72,6 +73,8 @@ Barrier::Barrier(int num_tasks, WaitPolicy policy)
     algorithm_.emplace<BlockingBarrier>(num_tasks, number_);
   } else if (policy.kind == WaitKind::kLogical) {
     algorithm_ = std::make_unique<LogicalBarrier>(num_tasks, number_);
+  } else if (policy.kind == WaitKind::kHold && num_tasks > NumProcessors()) {
+    algorithm_.emplace<TwoLevelBarrier>(num_tasks, policy, number_);
   } else {
     algorithm_.emplace<CountingBarrier>(num_tasks, policy, number_);
   }
@@ -83,6 +86,8 @@ inline void Barrier::SyncUntraced() {
   } else if (auto* logical =
                  std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
     (*logical)->Sync();
+  } else if (auto* two_level = std::get_if<TwoLevelBarrier>(&algorithm_)) {
+    two_level->Sync();
   } else {
     std::get<BlockingBarrier>(algorithm_).Sync();
   }
@@ -109,6 +114,9 @@ int Barrier::num_waiting() const {
   if (auto* logical =
           std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
     return (*logical)->num_waiting();
+  }
+  if (auto* two_level = std::get_if<TwoLevelBarrier>(&algorithm_)) {
+    return two_level->num_waiting();
   }
   return std::get<BlockingBarrier>(algorithm_).num_waiting();
 }

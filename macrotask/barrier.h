@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "macrotask/counting_barrier.h"
+#include "macrotask/two_level_barrier.h"
 #include "macrotask/wait_policy.h"
 #include "macrotask/waited_object.h"
 
@@ -80,7 +81,7 @@ class Barrier {
   // chooses, by policy and number of tasks.
   using Algorithm =
       std::variant<std::monostate, BlockingBarrier, CountingBarrier,
-                   std::unique_ptr<LogicalBarrier>>;
+                   TwoLevelBarrier, std::unique_ptr<LogicalBarrier>>;
 
   void SyncUntraced();
 

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
 #include "macrotask/affinity.h"
 #include "macrotask/load.h"
+#include "macrotask/processor_load.h"
 
 namespace macrotask {
 namespace {
@@ -38,10 +40,6 @@ const std::vector<int>& TheProcessors() {
 std::atomic<int> affinity_version{0};
 
 [[maybe_unused]] const int asked_when_loaded = NumProcessors();
-
-std::string Count(int number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
 
 }  // namespace
 
@@ -72,30 +70,49 @@ bool IsUsable(int processor) {
 }
 
 Placement::Placement(int num_tasks)
-    : num_tasks_(num_tasks), pinned_(num_tasks <= NumProcessors()) {
+    : num_tasks_(num_tasks), num_processors_(NumProcessors()) {
   if (num_tasks < 1) {
     throw std::invalid_argument("a placement needs at least 1 task, not " +
                                 std::to_string(num_tasks));
   }
 }
 
+int Placement::index(int task) const {
+  if (!is_crowded()) return task;
+  return static_cast<int>(std::int64_t{task} * num_processors_ / num_tasks_);
+}
+
 int Placement::processor(int task) const {
-  if (!pinned_) return kAnyProcessor;
-  return TheProcessors().at(static_cast<std::size_t>(task));
+  return TheProcessors().at(static_cast<std::size_t>(index(task)));
 }
 
 std::string Placement::ToString() const {
-  if (!pinned_) {
-    return Count(num_tasks_, "task") + " on " +
-           Count(NumProcessors(), "processor") + ", not pinned";
-  }
-  std::string text = Count(num_tasks_, "task") + " pinned: ";
-  for (int task = 0; task < num_tasks_; ++task) {
-    if (task > 0) text += ", ";
-    text += "task " + std::to_string(task) + " on processor " +
-            std::to_string(processor(task));
+  std::string text = std::to_string(num_tasks_) +
+                     (num_tasks_ == 1 ? " task pinned: " : " tasks pinned: ");
+  for (int first = 0, last = 0; first < num_tasks_; first = last + 1) {
+    for (last = first; last + 1 < num_tasks_ && index(last + 1) == index(first);
+         ++last) {
+    }
+    if (first > 0) text += ", ";
+    text += first == last ? "task " + std::to_string(first)
+                          : "tasks " + std::to_string(first) + " to " +
+                                std::to_string(last);
+    text += " on processor " + std::to_string(processor(first));
   }
   return text;
+}
+
+int NumProcessorLoads() { return static_cast<int>(TheProcessors().size()); }
+
+ProcessorLoad& LoadOfProcessor(int index) {
+  // Never destroyed, as TheProcessors().
+  static auto* const loads = [] {
+    const int num_loads = NumProcessorLoads();
+    auto* const made = new ProcessorLoad[static_cast<std::size_t>(num_loads)];
+    for (int i = 0; i < num_loads; ++i) made[i].index = i;
+    return made;
+  }();
+  return loads[index];
 }
 
 cpu_set_t AffinityFor(int processor) {

@@ -23,8 +23,9 @@ void SetMaxProcessors(int num_processors);
 bool IsUsable(int processor);
 
 // Where the tasks of a RunTasks() go: one processor each, in ascending order of
-// the affinity mask, if there are enough of them; otherwise wherever the system
-// puts them. An immutable value, so that it may be read by any task.
+// the affinity mask, if there are enough of them; otherwise as many or one more
+// on each, neighbours together. An immutable value, so that it may be read by
+// any task.
 //
 // Cray name: none; the paper's tasks had a processor each (TSKTUNE's MAXCPU).
 // Cost: computed, not measured; it moves nobody.
@@ -37,21 +38,24 @@ class Placement {
   // Throws std::invalid_argument if `num_tasks` < 1.
   explicit Placement(int num_tasks);
 
-  // True iff every task has a processor of its own.
-  bool pinned() const { return pinned_; }
+  // True iff there are more tasks than processors.
+  bool is_crowded() const { return num_tasks_ > num_processors_; }
   int num_tasks() const { return num_tasks_; }
 
-  // The system's number of the processor of `task`, which is in
-  // [0, num_tasks()), or kAnyProcessor if the tasks are not pinned.
+  // Which of the processors that of `task` is, in [0, NumProcessors()); `task`
+  // is in [0, num_tasks()).
+  int index(int task) const;
+
+  // The system's number of that processor.
   int processor(int task) const;
 
-  // One line without a full stop, such as "16 tasks on 2 processors, not
-  // pinned".
+  // One line without a full stop, such as "16 tasks pinned: tasks 0 to 7 on
+  // processor 0, tasks 8 to 15 on processor 1".
   std::string ToString() const;
 
  private:
   int num_tasks_;
-  bool pinned_;
+  int num_processors_;
 };
 
 }  // namespace macrotask

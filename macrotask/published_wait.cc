@@ -2,6 +2,7 @@
 
 #include "macrotask/busy_time.h"
 #include "macrotask/deadlock.h"
+#include "macrotask/processor_load.h"
 #include "macrotask/trace_point.h"
 
 namespace macrotask {
@@ -12,6 +13,7 @@ void PublishedWait::Look() const {
 
 void PublishedWait::BeginSleep() const {
   NoteBusy(-1);
+  if (load_of_own_processor != nullptr) load_of_own_processor->Add(-1);
   if (record_ == nullptr) return;
   RecordIf(TraceClass::kCpus, TraceAction::kSleep, 0);
   DetectDeadlock();
@@ -19,6 +21,7 @@ void PublishedWait::BeginSleep() const {
 
 void PublishedWait::EndSleep() const {
   NoteBusy(+1);
+  if (load_of_own_processor != nullptr) load_of_own_processor->Add(+1);
   if (record_ == nullptr) return;
   RecordIf(TraceClass::kCpus, TraceAction::kWake, 0);
 }

@@ -37,9 +37,9 @@ bool SpinBriefly(const Done& done) {
 
 // Internal: spins until `done()`, as `policy` allows, and says whether it was
 // done.
-template <typename Done>
+template <typename Done, typename Crowded>
 bool SpinUntil(const WaitPolicy& policy, const PublishedWait& wait,
-               const Done& done) {
+               const Done& done, const Crowded& is_crowded) {
   using Clock = std::chrono::steady_clock;
   constexpr int kLooksPerSearch = 4096;  // for a deadlock: 1.6 ms or more
   const bool may_sleep = policy.kind != WaitKind::kSpin;
@@ -48,7 +48,7 @@ bool SpinUntil(const WaitPolicy& policy, const PublishedWait& wait,
   for (int looks = 1;; ++looks) {
     // Too few processors: whoever will make it `done()` may be waiting for
     // ours.
-    const bool crowded = MoreTasksThanProcessors();
+    const bool crowded = is_crowded();
     if (crowded && may_sleep) return false;
     if (crowded) sched_yield();
     if (crowded ? done() : SpinBriefly(done)) return true;
@@ -64,10 +64,12 @@ bool SpinUntil(const WaitPolicy& policy, const PublishedWait& wait,
 // stay true, whoever asks. `what` is what the task says it waits for.
 //
 // A short wait costs nothing but the wait; a long one is published, so that a
-// deadlock can be found.
-template <typename Done, typename Sleep>
+// deadlock can be found. `is_crowded()` says whether others want the caller's
+// processor.
+template <typename Done, typename Sleep, typename Crowded>
 void SpinThenSleep(const WaitPolicy& policy, const WaitedObject& what,
-                   const Done& done, const Sleep& sleep) {
+                   const Done& done, const Sleep& sleep,
+                   const Crowded& is_crowded) {
   if (done()) return;
   if (processor_of_caller != nullptr) {
     const auto is_over = [](const void* wait) {
@@ -75,14 +77,19 @@ void SpinThenSleep(const WaitPolicy& policy, const WaitedObject& what,
     };
     return WaitLogically(what, is_over, &done);
   }
-  const bool spins =
-      policy.kind != WaitKind::kBlock && !MoreTasksThanProcessors();
-  if (spins && SpinBriefly(done)) return;
+  const bool may_spin = policy.kind != WaitKind::kBlock;
+  if (may_spin && !is_crowded() && SpinBriefly(done)) return;
   const PublishedWait wait(what, done);
-  if (policy.kind != WaitKind::kBlock && SpinUntil(policy, wait, done)) return;
+  if (may_spin && SpinUntil(policy, wait, done, is_crowded)) return;
   wait.BeginSleep();
   sleep();
   wait.EndSleep();
+}
+
+template <typename Done, typename Sleep>
+void SpinThenSleep(const WaitPolicy& policy, const WaitedObject& what,
+                   const Done& done, const Sleep& sleep) {
+  SpinThenSleep(policy, what, done, sleep, &MoreTasksThanProcessors);
 }
 
 }  // namespace macrotask

@@ -11,6 +11,7 @@
 #include "macrotask/load.h"
 #include "macrotask/logical_processor.h"
 #include "macrotask/logical_wait.h"
+#include "macrotask/processor_load.h"
 #include "macrotask/program_end.h"
 #include "macrotask/task_registry.h"
 #include "macrotask/trace_point.h"
@@ -69,16 +70,26 @@ std::vector<Worker*> AcquireForTasks(const std::vector<int>& processors) {
   return workers;
 }
 
-// One processor per task.
-std::vector<int> ProcessorsOf(const Placement& placement) {
-  std::vector<int> processors(static_cast<std::size_t>(placement.num_tasks()),
-                              kAnyProcessor);
+// Where each task goes, and which of those that share a processor it belongs
+// to.
+struct Places {
+  std::vector<int> processors;
+  std::vector<ProcessorLoad*> loads;
+};
+Places PlacesOf(const Placement& placement) {
+  const auto num_tasks = static_cast<std::size_t>(placement.num_tasks());
+  Places places = {std::vector<int>(num_tasks, kAnyProcessor),
+                   std::vector<ProcessorLoad*>(num_tasks, nullptr)};
   // Other tasks would share the processors and be as many more in their way.
   const bool alone = load.num_tasks.load(std::memory_order_relaxed) == 1;
-  for (int task = 0; alone && task < placement.num_tasks(); ++task) {
-    processors[static_cast<std::size_t>(task)] = placement.processor(task);
+  for (std::size_t i = 0; alone && i < num_tasks; ++i) {
+    const int task = static_cast<int>(i);
+    places.processors[i] = placement.processor(task);
+    if (placement.is_crowded()) {
+      places.loads[i] = &LoadOfProcessor(placement.index(task));
+    }
   }
-  return processors;
+  return places;
 }
 
 }  // namespace
@@ -131,22 +142,27 @@ void RunTasks(int num_tasks, const std::function<void(int)>& body,
     if (processor_of_caller == nullptr) return RunLogicalTasks(num_tasks, body);
     wait = WaitPolicy::Hold();  // within a logical task
   }
-  const std::vector<int> processors = ProcessorsOf(placement);
+  const Places places = PlacesOf(placement);
 
   // Everything that can fail comes before the first start.
-  std::vector<Job> jobs(processors.size() - 1);
+  std::vector<Job> jobs(places.processors.size() - 1);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const int task = static_cast<int>(i) + 1;
     jobs[i].body = [&body, task] { body(task); };
     jobs[i].wait = wait;
-    jobs[i].processor = processors[i + 1];
+    jobs[i].processor = places.processors[i + 1];
+    jobs[i].load = places.loads[i + 1];
   }
-  const std::vector<Worker*> workers = AcquireForTasks(processors);
+  const std::vector<Worker*> workers = AcquireForTasks(places.processors);
 
-  const ScopedProcessor on_own_processor(processors[0]);
+  const ScopedProcessor on_own_processor(places.processors[0]);
+  for (ProcessorLoad* shared : places.loads) {
+    if (shared != nullptr) shared->Add(+1);
+  }
   for (std::size_t i = 0; i < jobs.size(); ++i) workers[i]->Start(jobs[i]);
   std::exception_ptr failure;
   try {
+    const ScopedProcessorLoad shared(places.loads[0]);
     body(0);
   } catch (...) {
     failure = std::current_exception();

@@ -114,6 +114,7 @@ WaitPolicy Worker::Run(Job& job) {
   record_->SetRunning(job.number);
   RecordIf(TraceClass::kTasks, TraceAction::kTaskBegin, job.value);
   try {
+    const ScopedProcessorLoad shared(job.load);
     job.body();
   } catch (...) {
     job.failure = std::current_exception();

@@ -10,6 +10,7 @@
 #include "macrotask/epoch.h"
 #include "macrotask/mutex.h"
 #include "macrotask/placement.h"
+#include "macrotask/processor_load.h"
 #include "macrotask/task_registry.h"
 #include "macrotask/wait_policy.h"
 
@@ -21,10 +22,13 @@ struct Job {
   std::function<void()> body;
   WaitPolicy wait;                // of the tasks that wait for this one
   int processor = kAnyProcessor;  // where the body runs
-  std::uint64_t value = 0;        // the user value, Task::Value() in the body
-  std::uint32_t number = 0;       // of the task; set by Worker::Start()
-  std::exception_ptr failure;     // what the body threw; valid once done is 1
-  Epoch done;                     // 0: not complete, 1: complete
+  // Of the processor that it shares with others of a RunTasks(), where it has
+  // been counted; null if it shares none.
+  ProcessorLoad* load = nullptr;
+  std::uint64_t value = 0;     // the user value, Task::Value() in the body
+  std::uint32_t number = 0;    // of the task; set by Worker::Start()
+  std::exception_ptr failure;  // what the body threw; valid once done is 1
+  Epoch done;                  // 0: not complete, 1: complete
 
   // Returns when the body has ended. The caller is no live task meanwhile.
   void Await();

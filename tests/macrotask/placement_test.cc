@@ -4,17 +4,19 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "macrotask/task.h"
 
 namespace macrotask {
 namespace {
 
-TEST(PlacementTest, PinsIfThereAreEnoughProcessors) {
+TEST(PlacementTest, GivesEachTaskAProcessorIfThereAreEnough) {
   const Placement placement(NumProcessors());
-  EXPECT_TRUE(placement.pinned());
+  EXPECT_FALSE(placement.is_crowded());
   for (int task = 0; task < placement.num_tasks(); ++task) {
     EXPECT_TRUE(IsUsable(placement.processor(task)));
     if (task == 0) continue;
@@ -22,11 +24,21 @@ TEST(PlacementTest, PinsIfThereAreEnoughProcessors) {
   }
 }
 
-TEST(PlacementTest, LeavesMoreTasksThanProcessorsToTheSystem) {
-  const Placement placement(NumProcessors() + 1);
-  EXPECT_FALSE(placement.pinned());
-  EXPECT_EQ(placement.processor(0), kAnyProcessor);
-  EXPECT_EQ(placement.processor(NumProcessors()), kAnyProcessor);
+TEST(PlacementTest, GivesProcessorsToNeighboursIfThereAreTooFew) {
+  for (const int num_tasks : {NumProcessors() + 1, 7 * NumProcessors() + 3}) {
+    const Placement placement(num_tasks);
+    EXPECT_TRUE(placement.is_crowded());
+    std::vector<int> num_here(static_cast<std::size_t>(NumProcessors()));
+    for (int task = 0; task < num_tasks; ++task) {
+      EXPECT_TRUE(IsUsable(placement.processor(task)));
+      ++num_here.at(static_cast<std::size_t>(placement.index(task)));
+      if (task == 0) continue;
+      EXPECT_GE(placement.index(task), placement.index(task - 1));
+    }
+    const auto [fewest, most] =
+        std::minmax_element(num_here.begin(), num_here.end());
+    EXPECT_LE(*most - *fewest, 1);
+  }
 }
 
 TEST(PlacementTest, TextNamesTheProcessorOfEveryTask) {
@@ -41,12 +53,16 @@ TEST(PlacementTest, TextNamesTheProcessorOfEveryTask) {
                                 std::to_string(two.processor(1)));
 }
 
-TEST(PlacementTest, TextSaysWhenTasksAreNotPinned) {
-  const int num_tasks = NumProcessors() + 14;
-  const std::string noun = NumProcessors() == 1 ? "processor" : "processors";
-  EXPECT_EQ(Placement(num_tasks).ToString(),
-            std::to_string(num_tasks) + " tasks on " +
-                std::to_string(NumProcessors()) + " " + noun + ", not pinned");
+TEST(PlacementTest, TextNamesTheTasksThatShareAProcessor) {
+  const Placement placement(16 * NumProcessors());
+  const std::string begin = std::to_string(placement.num_tasks()) +
+                            " tasks pinned: tasks 0 to 15 on processor " +
+                            std::to_string(placement.processor(0));
+  EXPECT_EQ(placement.ToString().substr(0, begin.size()), begin);
+  if (NumProcessors() < 2) GTEST_SKIP() << "needs 2 processors";
+  const std::string second = ", tasks 16 to 31 on processor " +
+                             std::to_string(placement.processor(16));
+  EXPECT_EQ(placement.ToString().substr(begin.size(), second.size()), second);
 }
 
 TEST(PlacementTest, RefusesLessThanOneTask) {
@@ -78,8 +94,8 @@ TEST_F(SetMaxProcessorsTest, LeavesTheFirstOnes) {
   EXPECT_EQ(NumProcessors(), 1);
   EXPECT_TRUE(IsUsable(first));
   EXPECT_EQ(IsUsable(last), num_processors_ == 1);
-  EXPECT_TRUE(Placement(1).pinned());
-  EXPECT_FALSE(Placement(2).pinned());
+  EXPECT_FALSE(Placement(1).is_crowded());
+  EXPECT_TRUE(Placement(2).is_crowded());
   EXPECT_EQ(NumAllowed(), 1);
   EXPECT_EQ(sched_getcpu(), first);
 }
