@@ -23,7 +23,7 @@ constexpr int kBadInput = 2;
 
 // Options that several subcommands have.
 struct WaitOptions {
-  macrotask::WaitKind kind = macrotask::WaitKind::kHold;
+  macrotask::WaitKind kind = macrotask::WaitKind::kAuto;
   int hold_time_us = 50;
 
   macrotask::WaitPolicy Policy() const {
@@ -34,12 +34,14 @@ struct WaitOptions {
 void AddWaitOptions(CLI::App* app, WaitOptions* wait) {
   AddChoice<macrotask::WaitKind>(
       app, "--wait", &wait->kind,
-      ByName({macrotask::WaitKind::kBlock, macrotask::WaitKind::kSpin,
-              macrotask::WaitKind::kHold, macrotask::WaitKind::kLogical}),
+      ByName({macrotask::WaitKind::kAuto, macrotask::WaitKind::kBlock,
+              macrotask::WaitKind::kSpin, macrotask::WaitKind::kHold,
+              macrotask::WaitKind::kLogical}),
       "How a task waits: block sleeps (pthread barriers, condition variables), "
-      "spin asks again and again, hold (the default) spins for the hold time, "
-      "then sleeps, logical gives its turn to the next task of its processor, "
-      "in user space");
+      "spin asks again and again, hold spins for the hold time, then sleeps, "
+      "logical gives its turn to the next task of its processor, in user "
+      "space; auto (the default) is hold, and logical with more tasks than "
+      "processors");
   app->add_option("--hold-time", wait->hold_time_us,
                   "Hold time in microseconds")
       ->check(CLI::Range(0, 1'000'000))

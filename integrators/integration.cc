@@ -77,7 +77,7 @@ void CheckNumSteps(const BlockMethod& method, int num_steps) {
 Integration::Integration(std::unique_ptr<System> system,
                          const IntegrationOptions& options)
     : system_(std::move(system)),
-      wait_(options.wait),
+      wait_(options.wait.For(options.partition.num_tasks())),
       run_(*system_, Checked(*system_, options).method, options.step,
            options.num_steps, options.partition, RmaSharingOf(options.figure)),
       start_(*system_),

@@ -73,7 +73,7 @@ Barrier::Barrier(int num_tasks, WaitPolicy policy)
     algorithm_.emplace<BlockingBarrier>(num_tasks, number_);
   } else if (policy.kind == WaitKind::kLogical) {
     algorithm_ = std::make_unique<LogicalBarrier>(num_tasks, number_);
-  } else if (policy.kind == WaitKind::kHold && num_tasks > NumProcessors()) {
+  } else if (policy.kind != WaitKind::kSpin && num_tasks > NumProcessors()) {
     algorithm_.emplace<TwoLevelBarrier>(num_tasks, policy, number_);
   } else {
     algorithm_.emplace<CountingBarrier>(num_tasks, policy, number_);

@@ -137,6 +137,7 @@ std::uint64_t Task::Value() {
 void RunTasks(int num_tasks, const std::function<void(int)>& body,
               WaitPolicy wait) {
   const Placement placement(num_tasks);
+  wait = wait.For(num_tasks);
   if (!body) throw std::invalid_argument("tasks need a body");
   if (wait.kind == WaitKind::kLogical) {
     if (processor_of_caller == nullptr) return RunLogicalTasks(num_tasks, body);

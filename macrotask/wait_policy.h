@@ -8,6 +8,7 @@ namespace macrotask {
 
 // How a task waits for a barrier, an event, a lock or another task.
 enum class WaitKind {
+  kAuto,   // kHold; RunTasks() with more tasks than processors: kLogical
   kBlock,  // sleeps at once: pthread_barrier_t, or mutex and condition variable
   kSpin,   // never sleeps; yields if there are more tasks than processors
   kHold,   // holds its processor for a while, spinning, then sleeps
@@ -23,7 +24,8 @@ inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
 
 // How a task waits: the kind and, for kHold, the time. A plain value, fixed
 // when a barrier, event, lock or task is made. Objects of different policies
-// may be used side by side by the same tasks.
+// may be used side by side by the same tasks; a logical task waits in its own
+// way at objects of every policy but kBlock's barrier, which it may not use.
 //
 // Cray name: HOLDTIME, a keyword of TSKTUNE, is `hold_time`.
 // Use: with more live tasks than processors kHold sleeps at once and kSpin
@@ -33,15 +35,21 @@ inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
 // Cost: every bench row of a synchronization says which policy it is of.
 //
 // kLogical is for RunTasks(), whose tasks then take turns on NumProcessors()
-// pthreads, and for the objects that these use; elsewhere it is kHold.
+// pthreads, and for the objects that these use; elsewhere it is kHold. Such
+// tasks wait a hundred times faster than pthreads that share processors, and
+// obey two rules. First, nobody interrupts a task: one that asks a variable of
+// its own again and again for what a neighbour has to do, instead of waiting
+// here, waits for ever, and one that sleeps in the kernel lets its neighbours
+// sleep. Second, what belongs to a pthread (thread_local variables, its signal
+// mask, a mutex held across a wait) belongs to all tasks of a processor.
 //
+//   RunTasks(num_tasks, body);  // whatever suits the number of tasks
 //   Barrier faithful(num_tasks, WaitPolicy::Block());
 //   Barrier dedicated(num_tasks, WaitPolicy::Spin());
-//   Barrier usual(num_tasks);  // WaitPolicy::Hold()
 //   Event patient(WaitPolicy::Hold(std::chrono::milliseconds(1)));
 struct WaitPolicy {
-  WaitKind kind = WaitKind::kHold;
-  std::chrono::nanoseconds hold_time = kDefaultHoldTime;  // used by kHold only
+  WaitKind kind = WaitKind::kAuto;
+  std::chrono::nanoseconds hold_time = kDefaultHoldTime;  // of kHold, kAuto
 
   static constexpr WaitPolicy Block() {
     return {WaitKind::kBlock, kDefaultHoldTime};
@@ -58,10 +66,13 @@ struct WaitPolicy {
     return {WaitKind::kLogical, kDefaultHoldTime};
   }
 
+  // The same, with the kind that kAuto stands for in a RunTasks() of so many.
+  WaitPolicy For(int num_tasks) const;
+
   friend bool operator==(const WaitPolicy&, const WaitPolicy&) = default;
 };
 
-// Returns "block", "spin", "hold" or "logical".
+// Returns "auto", "block", "spin", "hold" or "logical".
 std::string_view Name(WaitKind kind);
 
 // Returns the kind that Name() calls `name`, or nothing if there is none.

@@ -212,9 +212,9 @@ TEST_P(RunTasksTest, ThrowsWhatTheLowestNumberedTaskThrew) {
 TEST_P(RunTasksTest, TasksAreWherePlacementSays) {
   const Placement placement(num_tasks());
   std::vector<int> seen(Index(num_tasks()), kAnyProcessor);
-  RunTasks(num_tasks(), [&](int task) {
-    if (!placement.is_crowded()) seen[Index(task)] = sched_getcpu();
-  });
+  RunTasks(
+      num_tasks(), [&](int task) { seen[Index(task)] = sched_getcpu(); },
+      policy());
   for (int task = 0; task < num_tasks(); ++task) {
     EXPECT_EQ(seen[Index(task)], placement.processor(task)) << task;
   }

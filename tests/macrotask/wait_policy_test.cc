@@ -10,20 +10,25 @@
 
 #include "macrotask/cache_line.h"
 #include "macrotask/check.h"
+#include "macrotask/placement.h"
 
 namespace macrotask {
 namespace {
 
-TEST(WaitPolicyTest, HoldForTheDefaultTimeIsTheDefault) {
-  EXPECT_EQ(WaitPolicy(), WaitPolicy::Hold());
-  EXPECT_EQ(WaitPolicy().hold_time, kDefaultHoldTime);
+TEST(WaitPolicyTest, DefaultSuitsTheNumberOfTasks) {
+  EXPECT_EQ(WaitPolicy().For(NumProcessors()), WaitPolicy::Hold());
+  EXPECT_EQ(WaitPolicy().For(NumProcessors() + 1), WaitPolicy::Logical());
+  EXPECT_EQ(WaitPolicy::Block().For(NumProcessors() + 1), WaitPolicy::Block());
+}
+
+TEST(WaitPolicyTest, PoliciesOfOtherKindsOrTimesDiffer) {
   EXPECT_NE(WaitPolicy::Hold(), WaitPolicy::Hold(std::chrono::seconds(1)));
   EXPECT_NE(WaitPolicy::Block(), WaitPolicy::Spin());
 }
 
 TEST(WaitKindTest, NamesAreReadBack) {
-  for (WaitKind kind : {WaitKind::kBlock, WaitKind::kSpin, WaitKind::kHold,
-                        WaitKind::kLogical}) {
+  for (WaitKind kind : {WaitKind::kAuto, WaitKind::kBlock, WaitKind::kSpin,
+                        WaitKind::kHold, WaitKind::kLogical}) {
     EXPECT_EQ(ParseWaitKind(Name(kind)), kind);
   }
   EXPECT_EQ(ParseWaitKind("hold"), WaitKind::kHold);
