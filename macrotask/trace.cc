@@ -78,14 +78,53 @@ double CalcTickRate(const Moment& first) {
          std::chrono::duration<double>(last.time - first.time).count();
 }
 
-TraceRing& RingOf(TaskRecord& record) {
-  TraceRing* ring = record.trace.load(std::memory_order_relaxed);
-  if (ring == nullptr) {
-    ring = new TraceRing(ring_size.load(std::memory_order_relaxed));
-    // Release: partner of the acquire in TakeTrace().
-    record.trace.store(ring, std::memory_order_release);
-  }
+[[gnu::noinline, gnu::cold]] TraceRing& MakeRing(TaskRecord& record) {
+  auto* const ring = new TraceRing(ring_size.load(std::memory_order_relaxed));
+  // Release: partner of the acquire in TakeTrace().
+  record.trace.store(ring, std::memory_order_release);
   return *ring;
+}
+
+TraceRing& RingOfCaller() {
+  TaskRecord& record = RecordOfCaller();
+  TraceRing* const ring = record.trace.load(std::memory_order_relaxed);
+  return ring != nullptr ? *ring : MakeRing(record);
+}
+
+bool IsLean() {
+  return (traced_classes.load(std::memory_order_relaxed) & kLeanTrace) != 0;
+}
+
+bool HoldsNobody(TraceAction action, std::uint64_t data) {
+  const bool is_barrier = action == TraceAction::kBarrierSync ||
+                          action == TraceAction::kBarrierSyncEnd;
+  const bool is_test = action == TraceAction::kEventTest ||
+                       action == TraceAction::kEventTestClear ||
+                       action == TraceAction::kLockTestSet;
+  return action == TraceAction::kEventClear || is_test ||
+         (is_barrier && data >> 32 == 1);
+}
+
+[[gnu::noinline, gnu::cold]] void RecordFirst(TraceAction action,
+                                              std::uint64_t data) {
+  TraceRing& ring = RingOfCaller();
+  const Stamp stamp = ReadStampAhead();
+  ring.Append({stamp.clock, data, number_of_caller, stamp.cpu, action});
+}
+
+// Calls nothing but what the first record needs, so that it saves no registers:
+// others wait meanwhile.
+void RecordLean(TraceAction action, std::uint64_t data) {
+  if (HoldsNobody(action, data)) return;
+  const TaskRecord* const record = record_of_caller;
+  TraceRing* const ring = record == nullptr
+                              ? nullptr
+                              : record->trace.load(std::memory_order_relaxed);
+  if (ring == nullptr) [[unlikely]] {
+    return RecordFirst(action, data);
+  }
+  const Stamp stamp = ReadStampAhead();
+  ring->AppendNext({stamp.clock, data, number_of_caller, stamp.cpu, action});
 }
 
 [[maybe_unused]] const bool environment_is_read = [] {
@@ -110,7 +149,8 @@ void SetTraceClasses(std::uint32_t classes) {
               std::chrono::system_clock::now().time_since_epoch())
               .count();
     }
-    traced_classes.store(classes & kAllTraceClasses, std::memory_order_relaxed);
+    traced_classes.store(classes & (kAllTraceClasses | kLeanTrace),
+                         std::memory_order_relaxed);
   }
   RecordIf(TraceClass::kInfo, TraceAction::kTraceClasses, classes);
 }
@@ -137,10 +177,10 @@ void RecordUser(std::int64_t action, std::uint64_t data) {
 }
 
 void Record(TraceAction action, std::uint64_t data) {
-  TaskRecord& record = RecordOfCaller();
+  if (IsLean()) return RecordLean(action, data);
+  TraceRing& ring = RingOfCaller();
   const Stamp stamp = ReadStamp();
-  RingOf(record).Append(
-      {stamp.clock, data, number_of_caller, stamp.cpu, action});
+  ring.Append({stamp.clock, data, number_of_caller, stamp.cpu, action});
 }
 
 Trace TakeTrace() {
@@ -155,7 +195,7 @@ Trace TakeTrace() {
     trace.ticks_per_second = CalcTickRate(setting.first);
   }
   trace.num_processors = static_cast<std::uint32_t>(NumProcessors());
-  trace.classes = TraceClasses();
+  trace.classes = TraceClasses() & kAllTraceClasses;
   for (const TaskRecord* record = TaskRegistry::TheOne().first();
        record != nullptr; record = record->next()) {
     // Acquire: partner of the release in RingOf().

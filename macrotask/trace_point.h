@@ -38,9 +38,8 @@ inline void RecordIf(TraceClass trace_class, TraceAction action,
 // Internal: runs `wait()` with a record before and one after it. One branch
 // when nothing is recorded.
 template <typename Wait>
-[[gnu::noinline, gnu::cold]] void RecordWait(TraceAction begin, TraceAction end,
-                                             std::uint64_t data,
-                                             const Wait& wait) {
+[[gnu::noinline]] void RecordWait(TraceAction begin, TraceAction end,
+                                  std::uint64_t data, const Wait& wait) {
   Record(begin, data);
   wait();
   Record(end, data);

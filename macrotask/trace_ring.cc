@@ -15,24 +15,8 @@ namespace {
 constexpr std::uint64_t kOneMore = std::uint64_t{1} << 32;
 constexpr std::uint64_t kMostInARow = std::uint64_t{0xffffffff} << 32;
 
-bool IsTest(TraceAction action) {
-  return action == TraceAction::kLockTestSet ||
-         action == TraceAction::kEventTest ||
-         action == TraceAction::kEventTestClear;
-}
-
-std::uint64_t RestOf(const TraceRecord& record) {
-  return std::uint64_t{record.task} << 32 | std::uint64_t{record.cpu} << 16 |
-         static_cast<std::uint64_t>(record.action);
-}
-
-void Store(std::uint64_t& word, std::uint64_t value) {
-  // Release: partner of the acquire in Load().
-  std::atomic_ref<std::uint64_t>(word).store(value, std::memory_order_release);
-}
-
 std::uint64_t Load(std::uint64_t& word) {
-  // Acquire: partner of the release in Store().
+  // Acquire: partner of the release in Store(), in the header.
   return std::atomic_ref<std::uint64_t>(word).load(std::memory_order_acquire);
 }
 
@@ -45,25 +29,19 @@ TraceRing::TraceRing(std::size_t capacity)
   if (slots_ == nullptr) throw std::bad_alloc();
 }
 
-void TraceRing::Append(const TraceRecord& record) {
-  const std::uint64_t number = num_begun_.load(std::memory_order_relaxed);
-  if (record.action == last_action_ && IsTest(record.action) &&
-      record.task == last_task_ &&
-      record.object() == static_cast<std::uint32_t>(last_data_)) {
+void TraceRing::AppendTest(const TraceRecord& record) {
+  const bool again = record.action == last_action_ &&
+                     record.task == last_task_ &&
+                     record.object() == static_cast<std::uint32_t>(last_data_);
+  if (again) {
     if (last_data_ < kMostInARow) last_data_ += kOneMore;
+    const std::uint64_t number = num_begun_.load(std::memory_order_relaxed);
     Store(slots_[(number - 1) & mask_].data, last_data_);
     return;
   }
-  last_action_ = record.action;
   last_task_ = record.task;
   last_data_ = record.data;
-  num_begun_.store(number + 1, std::memory_order_relaxed);
-  Slot& slot = slots_[number & mask_];
-  Store(slot.clock, record.clock);
-  Store(slot.data, record.data);
-  Store(slot.rest, RestOf(record));
-  // Release: partner of the acquire in Read().
-  num_written_.store(number + 1, std::memory_order_release);
+  AppendNext(record);
 }
 
 std::vector<TraceRecord> TraceRing::Read(std::uint64_t* num_lost) const {

@@ -110,6 +110,26 @@ TEST_F(TraceTest, RecordsEveryCallOnABarrier) {
             (Entries{{1, kBarrierSync, data}, {1, kBarrierSyncEnd, data}}));
 }
 
+TEST_F(TraceTest, LeanOneLeavesOutWhatHoldsNobody) {
+  Begin(kAllTraceClasses | kLeanTrace);
+  Barrier barrier(1);
+  Event event;
+  barrier.Sync();
+  EXPECT_FALSE(event.Test());
+  event.Post();
+  event.Wait();
+  event.Clear();
+  const std::uint64_t number = event.number();
+  std::vector<Entry> entries = EntriesOf(1);
+  std::erase_if(entries, [](const Entry& entry) {
+    return ClassOf(entry.action) == TraceClass::kInfo;
+  });
+  EXPECT_EQ(entries, (Entries{{1, kEventPost, number},
+                              {1, kEventWait, number},
+                              {1, kEventWaitEnd, number}}));
+  EXPECT_EQ(TakeTrace().classes, kAllTraceClasses);
+}
+
 TEST_F(TraceTest, RecordsTheLifeOfATask) {
   Task task([] { RecordUser(70, 0xfedcba9876543210); }, {.value = 1234});
   const std::uint32_t number = task.number();
