@@ -82,7 +82,9 @@ Integration::Integration(std::unique_ptr<System> system,
            options.num_steps, options.partition, RmaSharingOf(options.figure)),
       start_(*system_),
       factory_(system_->MakeFactory(options.method.block_size)),
-      figure_(options.figure) {
+      figure_(options.figure),
+      on_begin_(options.on_begin),
+      on_end_(options.on_end) {
   MakeTaskStructure(figure_, options.partition, wait_);
   // Each task allocates its own work space, so that no two share a cache line:
   // the allocator serves every pthread from an arena of its own.
@@ -113,6 +115,7 @@ IntegrationResult Integration::RunTasks(StartFunction start) {
   const auto body = [&](int task) {
     all.Sync();  // all tasks are there
     const auto begin = std::chrono::steady_clock::now();
+    if (on_begin_) on_begin_(task);
     if (task == 0) {
       // The others wait for the start: an exception must not pass them by.
       try {
@@ -127,6 +130,7 @@ IntegrationResult Integration::RunTasks(StartFunction start) {
     structure->Run(task / partition.chain_tasks, task % partition.chain_tasks,
                    *tasks_[static_cast<std::size_t>(task)]);
     all.Sync();
+    if (on_end_) on_end_(task);
     if (task == 0) {
       result.block_seconds = SecondsSince(begin) - result.start_seconds;
     }

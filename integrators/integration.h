@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct IntegrationOptions {
   Partition partition = {};
   macrotask::WaitPolicy wait = {};
   bool record = false;  // keep the states at all grid points
+  // Called by every task of a run, counted from 0, when its time has begun and
+  // before it ends: who is who, and when, in a history trace.
+  std::function<void(int task)> on_begin = {}, on_end = {};
 };
 
 // Number of steps of length `step` in `duration` (s). Throws
@@ -86,6 +90,7 @@ class Integration {
   Start start_;
   std::unique_ptr<EvaluationFactory> factory_;
   Figure figure_;
+  std::function<void(int)> on_begin_, on_end_;
   std::vector<std::unique_ptr<BlockTask>> tasks_;  // (p^ x m^)
   std::vector<double> trajectory_;
 };
