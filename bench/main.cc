@@ -136,6 +136,17 @@ void SimulateCommand::Add(CLI::App* app) {
   AddFile(app, "--trace", &options.trace,
           "Record the history trace of the run in this file, for "
           "macrotask trace");
+  CLI::Option* const breakdown = app->add_flag(
+      "--breakdown", options.breakdown,
+      "Run it again and again, and say for every task how much of the time it "
+      "computed and how long it waited where");
+  breakdown->excludes("--trace")->excludes("--output");
+  app->add_option("--repetitions", options.repetitions,
+                  "How often it is run for --breakdown, with and without a "
+                  "history trace in turn")
+      ->check(CLI::Range(1, 100'000))
+      ->needs(breakdown)
+      ->capture_default_str();
 }
 
 void SimulateCommand::Run() {

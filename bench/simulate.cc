@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bench/breakdown.h"
+#include "bench/breakdown_run.h"
 #include "bench/lift_case.h"
 #include "bench/output_file.h"
 #include "dynamics/kinematics.h"
@@ -175,27 +177,44 @@ std::string Simulate(const SimulateOptions& options) {
     throw std::invalid_argument(fmt::format(
         "{} steps: the lift is planned in at least {}", steps, kFewestSteps));
   }
+  const BreakdownOptions breakdown_options = {
+      .figure = options.figure,
+      .partition = options.partition,
+      .most_blocks = steps / method.block_size + 1,
+      .repetitions = options.repetitions};
+  if (options.breakdown) PrepareBreakdown(breakdown_options);
   const LiftCase lift(std::move(input), steps);
   const dynamics::ClosedChainSystem system(lift.lift().model, lift.torques(),
                                            options.lanes);
-  integrators::Integration integration(system,
-                                       {.method = method,
-                                        .step = lift.step(),
-                                        .num_steps = steps,
-                                        .figure = options.figure,
-                                        .partition = options.partition,
-                                        .wait = options.wait,
-                                        .record = !options.output.empty()});
+  integrators::IntegrationOptions integration_options = {
+      .method = method,
+      .step = lift.step(),
+      .num_steps = steps,
+      .figure = options.figure,
+      .partition = options.partition,
+      .wait = options.wait,
+      .record = !options.output.empty()};
+  if (options.breakdown) {
+    integration_options.on_begin = &RecordBegin;
+    integration_options.on_end = &RecordEnd;
+  }
+  integrators::Integration integration(system, integration_options);
   if (!options.trace.empty()) {
     macrotask::SetTraceClasses(macrotask::kAllTraceClasses);
   }
-  const auto result = options.start == StartKind::kPlan
-                          ? integration.RunFrom(lift.Planned())
-                          : integration.Run(lift.InitialState());
+  const auto run = [&] {
+    return options.start == StartKind::kPlan
+               ? integration.RunFrom(lift.Planned())
+               : integration.Run(lift.InitialState());
+  };
+  const auto result = run();
   const macrotask::Trace trace = macrotask::TakeTrace();
   macrotask::SetTraceClasses(0);
   std::string report = Report(options, lift, system, result);
   if (!options.trace.empty()) report += WriteHistory(trace, options.trace);
+  if (options.breakdown) {
+    report += "\n" + BreakdownText(MeasureBreakdown(run, breakdown_options));
+  }
   if (!options.output.empty()) {
     WriteOutput(options.output,
                 TrajectoryCsv(system, integration, lift.step()));

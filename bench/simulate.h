@@ -21,6 +21,8 @@ struct SimulateOptions {
   bool rotor_inertia = false;
   std::string output;  // trajectory as CSV; none if empty
   std::string trace;   // history trace of the run; none if empty
+  bool breakdown = false;
+  int repetitions = 200;  // of the runs that are broken down
 };
 
 // Runs one simulation of the lift, writes the trajectory if wanted, and returns

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -56,6 +58,40 @@ class Cli : public testing::Test {
   fs::path folder_;
 };
 
+struct BreakdownTable {
+  std::string constructs;                 // "all m^ EVWAIT"
+  std::vector<std::vector<double>> rows;  // without the name
+};
+
+// The table in the output of --breakdown.
+BreakdownTable ReadBreakdown(const std::string& out) {
+  BreakdownTable table;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("|") || line.starts_with("| ---")) continue;
+    std::istringstream cells(line.substr(2));
+    std::vector<double> row;
+    std::string cell;
+    std::getline(cells, cell, '|');
+    const bool header = cell.starts_with("task");
+    while (std::getline(cells, cell, '|')) {
+      if (!header) {
+        row.push_back(std::stod(cell));
+      } else if (const auto end = cell.find(" imbalance");
+                 end != std::string::npos) {
+        const auto open = cell.find('(');
+        table.constructs +=
+            (table.constructs.empty() ? "" : " ") +
+            (open == std::string::npos
+                 ? cell.substr(1, end - 1)
+                 : cell.substr(open + 1, cell.find(')') - open - 1));
+      }
+    }
+    if (!header) table.rows.push_back(row);
+  }
+  return table;
+}
+
 TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
   ExpectRejected("simulate --step 0.03",
                  "the step of 0.03 s does not divide the duration of 1 s");
@@ -85,6 +121,15 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
       "unknown --wait 'never': expected one of block, hold, logical, spin");
   ExpectRejected("reproduce --csv x --json x",
                  "--csv and --json both write to 'x'");
+  ExpectRejected("simulate --breakdown --trace x",
+                 "--trace excludes --breakdown");
+  ExpectRejected("simulate --breakdown --output x",
+                 "--output excludes --breakdown");
+  ExpectRejected("simulate --repetitions 3",
+                 "--repetitions requires --breakdown");
+  ExpectRejected("simulate --breakdown --chain-tasks 4 --step 0.000001",
+                 "--breakdown of 4 tasks with 1000001 blocks each: expected at "
+                 "most 1677721 blocks of all tasks");
   ExpectRejected("simulate --output /tmp",
                  "cannot write '/tmp': Is a directory");
   ExpectRejected("simulate --output /none/x.csv",
@@ -158,6 +203,48 @@ TEST_F(Cli, AllFiguresAndPoliciesRun) {
         Run("simulate --step 0.02 " + std::string(arguments));
     EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.error;
     EXPECT_EQ(outcome.error, "") << arguments;
+  }
+}
+
+// Every task has a row, a column for every construct of the figure, and a sum
+// that is its wall time but for a few clock readings and, where tasks share
+// processors, the moment at which they are let go.
+TEST_F(Cli, BreakdownAddsUpToTheWallTime) {
+  struct Case {
+    const char* arguments;
+    int num_tasks;
+    const char* constructs;
+  };
+  for (const Case& c : {
+           Case{"--figure serial", 1, ""},
+           Case{"--figure figure2 --chain-tasks 2", 2, "all m^ EVWAIT"},
+           Case{"--figure figure3 --chain-tasks 4 --wait block", 4, "all m^"},
+           Case{"--figure figure7 --method B4PC5 --integration-tasks 4 "
+                "--wait logical --start plan",
+                4, "all p^ EVWAIT"},
+           Case{"--method B2PC5 --chain-tasks 2 --integration-tasks 2", 4,
+                "all m^ p^ EVWAIT"},
+           Case{"--chain-tasks 2 --wait logical --lanes 1", 2, "all m^"},
+           Case{"", 1, ""},
+       }) {
+    const Outcome outcome =
+        Run("simulate --step 0.02 --breakdown --repetitions 6 " +
+            std::string(c.arguments));
+    EXPECT_EQ(outcome.exit_code, 0) << c.arguments << outcome.error;
+    EXPECT_EQ(outcome.error, "") << c.arguments;
+    EXPECT_NE(outcome.out.find("disturbance: "), std::string::npos);
+    const BreakdownTable table = ReadBreakdown(outcome.out);
+    EXPECT_EQ(table.constructs, c.constructs) << outcome.out;
+    ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(c.num_tasks) + 1);
+    for (const std::vector<double>& row : table.rows) {
+      double sum = 0;  // of all between the wall time and the sum
+      for (std::size_t i = 1; i + 2 < row.size(); ++i) sum += row[i];
+      EXPECT_NEAR(sum, row[row.size() - 2],
+                  0.01 * static_cast<double>(row.size()))
+          << outcome.out;
+      EXPECT_NEAR(row[0], row[row.size() - 2] + row.back(), 0.02);
+      EXPECT_GE(row.back(), -0.05 * row[0]) << outcome.out;
+    }
   }
 }
 
