@@ -19,8 +19,8 @@ inline constexpr int kNumConstructs = 4;
 // "BARSYNC(all)", "BARSYNC(m^)", "BARSYNC(p^)", "EVWAIT".
 const char* Name(Construct construct);
 
-// Where the tasks of a figure wait: its barriers in the order in which each task
-// first comes to them, and the event. The first one is the run's own barrier.
+// Where the tasks of a figure wait: its barriers in the order in which each of
+// them first comes there, and the event. The first one is the run's own.
 // None of those at which only one task calls.
 std::vector<Construct> ConstructsOf(integrators::Figure figure,
                                     integrators::Partition partition);
@@ -59,11 +59,11 @@ RunRecords RecordsOfLastRun(const macrotask::Trace& trace, int num_tasks);
 // One that begins later is still in the barrier that let them all go; what it
 // did before does not count, nor what it does after the first task has ended.
 //
-// Each task comes to a barrier once a phase, and waits for an event once a post:
-// so the k-th waits of all tasks at an object belong together, and no clock is
-// needed to find them. Where the clocks of two processors differ, imbalance and
-// sync exchange time, but the columns of a task still add up to its total. A
-// barrier of one task holds nobody and counts as compute.
+// Each task comes to a barrier once a phase, and waits for an event once a
+// post: so the k-th waits of all tasks at an object belong together, and no
+// clock is needed to find them. Where the clocks of two processors differ,
+// imbalance and sync exchange time, but the columns of a task still add up to
+// its total. A barrier of one task holds nobody and counts as compute.
 // Requires: `constructs` of the figure, as ConstructsOf() says.
 std::vector<TaskBreakdown> BreakDown(const RunRecords& run,
                                      const std::vector<Construct>& constructs);

@@ -15,8 +15,8 @@ namespace {
 
 using integrators::IntegrationResult;
 
-// The most that a task leaves: five waits in a block of Figure 8; three barriers
-// of all tasks, beginning and end of the run.
+// The most that a task leaves: five waits in a block of Figure 8; three
+// barriers of all tasks, beginning and end of the run.
 constexpr std::int64_t kRecordsPerBlock = 10;
 constexpr std::int64_t kRecordsPerRun = 8;
 

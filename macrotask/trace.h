@@ -28,11 +28,11 @@ namespace macrotask {
 
 // Records these TraceClass bits from now on; 0 switches recording off. The
 // clock of the trace begins with the first call that switches anything on.
-// With kLeanTrace beside the classes: only what tells how long each wait was, at
-// half the cost. EVCLEAR, EVTEST, LOCKTEST in vain and the calls of a barrier of
-// one task are left out, and a clock may be read some ten nanoseconds before
-// what it is written beside, so that the records of two tasks are in order only
-// if they are farther apart.
+// With kLeanTrace beside the classes: only what tells how long each wait was,
+// at half the cost. EVCLEAR, EVTEST, LOCKTEST in vain and the calls of a
+// barrier of one task are left out, and a clock may be read some ten
+// nanoseconds before what it is written beside, so that the records of two
+// tasks are in order only if they are farther apart.
 inline constexpr std::uint32_t kLeanTrace = std::uint32_t{1} << 31;
 void SetTraceClasses(std::uint32_t classes);
 std::uint32_t TraceClasses();

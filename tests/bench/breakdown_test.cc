@@ -112,8 +112,8 @@ TEST(BreakDown, EventThatWasPostedBeforeIsNoImbalance) {
   EXPECT_EQ(At(tasks[2], kEvent), (Waiting{0, 2}));
 }
 
-// Tasks (1, 1), (1, 2), (2, 1), (2, 2) of Figure 8, one block each: barrier 9 of
-// all, 1 and 2 of chains, 3 and 4 of points, an event for each chain.
+// Tasks (1, 1), (1, 2), (2, 1), (2, 2) of Figure 8, one block each: barrier 9
+// of all, 1 and 2 of chains, 3 and 4 of points, an event for each chain.
 TEST(BreakDown, TellsTheBarriersOfAFigureApart) {
   std::vector<macrotask::TraceBuffer> buffers;
   for (std::uint32_t task = 0; task < 4; ++task) {
