@@ -9,6 +9,7 @@
 #include "macrotask/placement.h"
 #include "macrotask/program_end.h"
 #include "macrotask/published_wait.h"
+#include "macrotask/spin_then_sleep.h"
 #include "macrotask/trace_point.h"
 
 namespace macrotask {
@@ -36,17 +37,17 @@ BlockingBarrier::~BlockingBarrier() {
 }
 
 void BlockingBarrier::Sync() {
+  // Acquire and release: logical tasks are ordered by nothing else.
+  const std::uint64_t arrivals =
+      arrivals_.fetch_add(1, std::memory_order_acq_rel);
+  const std::uint64_t end_of_phase = (arrivals / num_tasks_ + 1) * num_tasks_;
+  const auto is_over = [&] {
+    return arrivals_.load(std::memory_order_acquire) >= end_of_phase;
+  };
   if (processor_of_caller != nullptr) {
     // All tasks of the processor would sleep with the caller.
-    throw std::logic_error("a barrier that blocks, in a logical task");
+    return SpinThenSleep(WaitPolicy::Block(), waited_, is_over, [] {});
   }
-  const std::uint64_t arrivals =
-      arrivals_.fetch_add(1, std::memory_order_relaxed);
-  const std::uint64_t end_of_phase = (arrivals / num_tasks_ + 1) * num_tasks_;
-  // Relaxed, here and above: the barrier orders the data.
-  const auto is_over = [&] {
-    return arrivals_.load(std::memory_order_relaxed) >= end_of_phase;
-  };
   const auto wait = [&] {
     const int error = pthread_barrier_wait(&barrier_);
     if (error == PTHREAD_BARRIER_SERIAL_THREAD) return;  // one of them

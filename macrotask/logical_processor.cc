@@ -304,14 +304,13 @@ void GiveWay() {
 }
 
 void RunLogicalTasks(int num_tasks, const std::function<void(int)>& body) {
-  const int num_processors = std::min(NumProcessors(), num_tasks);
+  const Placement placement(num_tasks);
   RunTasks(
-      num_processors,
+      std::min(NumProcessors(), num_tasks),
       [&](int p) {
         LogicalProcessor processor;
-        for (int task = num_tasks * p / num_processors;
-             task < num_tasks * (p + 1) / num_processors; ++task) {
-          processor.Add(body, task);
+        for (int task = 0; task < num_tasks; ++task) {
+          if (placement.index(task) == p) processor.Add(body, task);
         }
         if (const std::exception_ptr failure = processor.Run()) {
           std::rethrow_exception(failure);

@@ -25,7 +25,8 @@ inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
 // How a task waits: the kind and, for kHold, the time. A plain value, fixed
 // when a barrier, event, lock or task is made. Objects of different policies
 // may be used side by side by the same tasks; a logical task waits in its own
-// way at objects of every policy but kBlock's barrier, which it may not use.
+// way at objects of every policy. (A barrier of kBlock is for pthreads alone or
+// for logical tasks alone: a pthread_barrier_t knows of pthreads only.)
 //
 // Cray name: HOLDTIME, a keyword of TSKTUNE, is `hold_time`.
 // Use: with more live tasks than processors kHold sleeps at once and kSpin

@@ -25,7 +25,8 @@ TEST_P(BarrierTest, NoTaskIsEverAPhaseAheadOrBehind) {
   Barrier barrier(num_tasks(), policy());
   EXPECT_EQ(barrier.num_tasks(), num_tasks());
   EXPECT_EQ(
-      CountPhaseErrors(num_tasks(), num_rounds(), [&](int) { barrier.Sync(); }),
+      CountPhaseErrors(
+          num_tasks(), num_rounds(), [&](int) { barrier.Sync(); }, policy()),
       0);
 }
 
@@ -35,16 +36,19 @@ TEST_P(BarrierTest, CarriesWhatWasWrittenBothWays) {
   Barrier barrier(num_tasks(), policy());
   std::vector<std::uint64_t> old_slots(Index(num_tasks()), 1);
   std::vector<std::uint64_t> new_slots(Index(num_tasks()), 0);
-  RunTasks(num_tasks(), [&](int task) {
-    for (int round = 0; round < num_rounds(); ++round) {
-      std::uint64_t sum = Index(task);
-      for (std::uint64_t slot : old_slots) sum = 3 * sum + slot;
-      new_slots[Index(task)] = sum;
-      barrier.Sync();
-      old_slots[Index(task)] = new_slots[Index(task)];
-      barrier.Sync();
-    }
-  });
+  RunTasks(
+      num_tasks(),
+      [&](int task) {
+        for (int round = 0; round < num_rounds(); ++round) {
+          std::uint64_t sum = Index(task);
+          for (std::uint64_t slot : old_slots) sum = 3 * sum + slot;
+          new_slots[Index(task)] = sum;
+          barrier.Sync();
+          old_slots[Index(task)] = new_slots[Index(task)];
+          barrier.Sync();
+        }
+      },
+      policy());
 
   std::vector<std::uint64_t> expected(Index(num_tasks()), 1);
   for (int round = 0; round < num_rounds(); ++round) {
@@ -65,21 +69,25 @@ TEST_P(BarrierTest, IsReusableAtOnce) {
   std::vector<int> buffers[2];
   for (auto& buffer : buffers) buffer.assign(Index(num_tasks()), -1);
   std::vector<int> errors(Index(num_tasks()), 0);
-  RunTasks(num_tasks(), [&](int task) {
-    for (int phase = 0; phase < num_rounds(); ++phase) {
-      std::vector<int>& buffer = buffers[phase % 2];
-      buffer[Index(task)] = phase;
-      barrier.Sync();
-      for (int seen : buffer) errors[Index(task)] += seen != phase;
-    }
-  });
+  RunTasks(
+      num_tasks(),
+      [&](int task) {
+        for (int phase = 0; phase < num_rounds(); ++phase) {
+          std::vector<int>& buffer = buffers[phase % 2];
+          buffer[Index(task)] = phase;
+          barrier.Sync();
+          for (int seen : buffer) errors[Index(task)] += seen != phase;
+        }
+      },
+      policy());
   EXPECT_EQ(errors, std::vector<int>(Index(num_tasks()), 0));
 }
 
 TEST_P(BarrierTest, SurvivesTheTasksThatLeaveItLast) {
   for (int round = 0; round < 50; ++round) {
     auto barrier = std::make_unique<Barrier>(num_tasks(), policy());
-    RunTasks(num_tasks(), [&](int) { barrier->Sync(); });
+    RunTasks(
+        num_tasks(), [&](int) { barrier->Sync(); }, policy());
     barrier.reset();
   }
 }
@@ -101,24 +109,28 @@ TEST_P(CrossingBarriersTest, RowsAndColumnsSpreadOneValueToAll) {
   int values[kSide][kSide] = {};
   int of_row[kSide][kSide] = {};
   int num_errors[kSide][kSide] = {};
-  RunTasks(kSide * kSide, [&](int task) {
-    const int row = task / kSide;
-    const int column = task % kSide;
-    for (int round = 0; round < 50; ++round) {
-      values[row][column] = (task + round) % (kSide * kSide) + 16 * round;
-      rows[Index(row)].Sync();
-      int most = 0;
-      for (int value : values[row]) most = std::max(most, value);
-      of_row[row][column] = most;
-      columns[Index(column)].Sync();
-      for (int i = 0; i < kSide; ++i) most = std::max(most, of_row[i][column]);
-      num_errors[row][column] += most != 16 * round + 15;
-      // Nobody writes of_row again before his column, or values before his row,
-      // has read it.
-      columns[Index(column)].Sync();
-      rows[Index(row)].Sync();
-    }
-  });
+  RunTasks(
+      kSide * kSide,
+      [&](int task) {
+        const int row = task / kSide;
+        const int column = task % kSide;
+        for (int round = 0; round < 50; ++round) {
+          values[row][column] = (task + round) % (kSide * kSide) + 16 * round;
+          rows[Index(row)].Sync();
+          int most = 0;
+          for (int value : values[row]) most = std::max(most, value);
+          of_row[row][column] = most;
+          columns[Index(column)].Sync();
+          for (int i = 0; i < kSide; ++i)
+            most = std::max(most, of_row[i][column]);
+          num_errors[row][column] += most != 16 * round + 15;
+          // Nobody writes of_row again before his column, or values before his row,
+          // has read it.
+          columns[Index(column)].Sync();
+          rows[Index(row)].Sync();
+        }
+      },
+      GetParam());
   for (const auto& row : num_errors) {
     for (int errors : row) EXPECT_EQ(errors, 0);
   }

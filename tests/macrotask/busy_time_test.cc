@@ -31,20 +31,23 @@ template <typename Body>
 void WithWaitingTasks(int num_tasks, const WaitPolicy& policy,
                       const Body& body) {
   Event over(policy);
-  RunTasks(num_tasks + 1, [&](int task) {
-    if (task != 0) return over.Wait();
-    const auto num_waiting = [] {
-      int number = 0;
-      for (const TaskStatus& status : ListTasks()) {
-        number += status.state == TaskState::kWaiting;
-      }
-      return number;
-    };
-    YieldUntil([&] { return num_waiting() == num_tasks; });
-    KeepBusy();  // They look for a deadlock, and then sleep.
-    body();
-    over.Post();
-  });
+  RunTasks(
+      num_tasks + 1,
+      [&](int task) {
+        if (task != 0) return over.Wait();
+        const auto num_waiting = [] {
+          int number = 0;
+          for (const TaskStatus& status : ListTasks()) {
+            number += status.state == TaskState::kWaiting;
+          }
+          return number;
+        };
+        YieldUntil([&] { return num_waiting() == num_tasks; });
+        KeepBusy();  // They look for a deadlock, and then sleep.
+        body();
+        over.Post();
+      },
+      WaitPolicy::Hold());
 }
 
 // How the busy times grow while `body()` runs, and how long that takes.
@@ -84,10 +87,13 @@ TEST_P(BusyTimesTest, AddUpToTheTimeThatPasses) {
   const Growth growth = GrowthDuring([&] {
     for (int round = 0; round < 20; ++round) {
       Event posted(policy());
-      RunTasks(num_tasks(), [&](int task) {
-        if (task == num_tasks() - 1) posted.Post();
-        posted.Wait();
-      });
+      RunTasks(
+          num_tasks(),
+          [&](int task) {
+            if (task == num_tasks() - 1) posted.Post();
+            posted.Wait();
+          },
+          policy());
     }
   });
   EXPECT_EQ(growth.times.size(), static_cast<std::size_t>(NumProcessors()) + 1);

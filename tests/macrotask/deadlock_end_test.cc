@@ -41,7 +41,8 @@ TEST_P(DeadlockEndTest, WritesTheHistoryTrace) {
         SetTraceFile(path);
         SetTraceClasses(kAllTraceClasses);
         Event never(GetParam());
-        RunTasks(3, [&](int) { never.Wait(); });
+        RunTasks(
+            3, [&](int) { never.Wait(); }, GetParam());
       },
       testing::ExitedWithCode(kDeadlockExitCode), kMessage);
   const Trace trace = ReadTrace(path);
@@ -57,7 +58,8 @@ TEST_P(DeadlockEndTest, LosesNothingThatTheProgramHasPrinted) {
         std::FILE* const file = std::fopen(path.c_str(), "w");
         std::fputs("step 7", file);
         Event never(GetParam());
-        RunTasks(3, [&](int) { never.Wait(); });
+        RunTasks(
+            3, [&](int) { never.Wait(); }, GetParam());
       },
       testing::ExitedWithCode(kDeadlockExitCode), kMessage);
   EXPECT_EQ(Contents(path), "step 7");
@@ -70,7 +72,8 @@ TEST_P(DeadlockEndTest, DestroysStaticObjectsOnWhichTasksSleep) {
         static Event never(GetParam());
         static Barrier barrier(4, GetParam());
         static Task task([] { never.Wait(); }, {.wait = GetParam()});
-        RunTasks(3, [](int) { barrier.Sync(); });
+        RunTasks(
+            3, [](int) { barrier.Sync(); }, GetParam());
       },
       testing::ExitedWithCode(kDeadlockExitCode), kMessage);
 }
@@ -86,7 +89,8 @@ TEST_P(DeadlockEndTest, DoesNotComeWhenDetectionIsOff) {
         SetDeadlockDetection(false);
         RaiseAlarmSoon();
         Event never(GetParam());
-        RunTasks(3, [&](int) { never.Wait(); });
+        RunTasks(
+            3, [&](int) { never.Wait(); }, GetParam());
       },
       testing::KilledBySignal(SIGALRM), "^$");
 }

@@ -70,7 +70,8 @@ TEST_P(DeadlockTest, AllWaitForAnEvent) {
   ExpectDeadlock(
       [&] {
         Event never(policy());
-        RunTasks(num_tasks(), [&](int) { never.Wait(); });
+        RunTasks(
+            num_tasks(), [&](int) { never.Wait(); }, policy());
       },
       Report(All(num_tasks(), "waiting for event 1")));
 }
@@ -79,7 +80,8 @@ TEST_P(DeadlockTest, AllWaitAtABarrierForOneMore) {
   ExpectDeadlock(
       [&] {
         Barrier barrier(num_tasks() + 1, policy());
-        RunTasks(num_tasks(), [&](int) { barrier.Sync(); });
+        RunTasks(
+            num_tasks(), [&](int) { barrier.Sync(); }, policy());
       },
       Report(All(num_tasks(), "waiting for barrier 1")));
 }
@@ -92,10 +94,13 @@ TEST_P(DeadlockTest, OneTaskComesOnceTooOften) {
   ExpectDeadlock(
       [&] {
         Barrier barrier(num_tasks(), policy());
-        RunTasks(num_tasks(), [&](int task) {
-          for (int phase = 0; phase < 100; ++phase) barrier.Sync();
-          if (task == 0) barrier.Sync();
-        });
+        RunTasks(
+            num_tasks(),
+            [&](int task) {
+              for (int phase = 0; phase < 100; ++phase) barrier.Sync();
+              if (task == 0) barrier.Sync();
+            },
+            policy());
       },
       Report(states));
 }
@@ -105,7 +110,8 @@ TEST_P(DeadlockTest, AllWaitForALockOfTheFirstWhoWaitsForItAsWell) {
       [&] {
         Lock lock(policy());
         lock.On();
-        RunTasks(num_tasks(), [&](int) { lock.On(); });
+        RunTasks(
+            num_tasks(), [&](int) { lock.On(); }, policy());
       },
       Report(All(num_tasks(), "waiting for lock 1, held by task 1"),
              "task 1 waits for lock 1, held by task 1"));
@@ -126,11 +132,14 @@ TEST_P(DeadlockTest, LocksAreHeldInACircle) {
         std::deque<Lock> locks;
         for (int i = 0; i < num_tasks(); ++i) locks.emplace_back(policy());
         Barrier all_hold_one(num_tasks(), policy());
-        RunTasks(num_tasks(), [&](int task) {
-          locks[Index(task)].On();
-          all_hold_one.Sync();
-          locks[Index((task + 1) % num_tasks())].On();
-        });
+        RunTasks(
+            num_tasks(),
+            [&](int task) {
+              locks[Index(task)].On();
+              all_hold_one.Sync();
+              locks[Index((task + 1) % num_tasks())].On();
+            },
+            policy());
       },
       Report(states, cycle));
 }
@@ -195,10 +204,13 @@ TEST_P(DeadlockTest, TheLastTaskThatCouldRunEnds) {
   ExpectDeadlock(
       [&] {
         Event never(policy());
-        RunTasks(num_tasks() + 1, [&](int task) {
-          if (task < num_tasks()) never.Wait();
-          YieldUntil([&] { return NumWaiting() == num_tasks(); });
-        });
+        RunTasks(
+            num_tasks() + 1,
+            [&](int task) {
+              if (task < num_tasks()) never.Wait();
+              YieldUntil([&] { return NumWaiting() == num_tasks(); });
+            },
+            policy());
       },
       Report(states));
 }
@@ -230,15 +242,18 @@ TEST_P(DeadlockTest, TheLastForeignPthreadThatCouldRunEnds) {
         Event never(policy());
         Barrier all_started(num_tasks(), policy());
         std::thread* foreign = nullptr;
-        RunTasks(num_tasks(), [&](int task) {
-          all_started.Sync();
-          if (task == 0) {
-            foreign = new std::thread([&] { last(&go_on); });
-            YieldUntil([&] { return NumWaiting() == num_tasks(); });
-            go_on.Post();
-          }
-          never.Wait();
-        });
+        RunTasks(
+            num_tasks(),
+            [&](int task) {
+              all_started.Sync();
+              if (task == 0) {
+                foreign = new std::thread([&] { last(&go_on); });
+                YieldUntil([&] { return NumWaiting() == num_tasks(); });
+                go_on.Post();
+              }
+              never.Wait();
+            },
+            policy());
       },
       Report(states));
 }

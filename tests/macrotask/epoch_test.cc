@@ -37,14 +37,17 @@ TEST_P(EpochTest, ReleasedTaskMayDestroyIt) {
   for (int round = 0; round < 1000; ++round) {
     auto epoch = std::make_unique<Epoch>();
     Epoch& alias = *epoch;
-    RunTasks(2, [&](int task) {
-      if (task == 0) {
-        alias.Advance();
-      } else {
-        alias.AwaitPast(0, GetParam());
-        epoch.reset();
-      }
-    });
+    RunTasks(
+        2,
+        [&](int task) {
+          if (task == 0) {
+            alias.Advance();
+          } else {
+            alias.AwaitPast(0, GetParam());
+            epoch.reset();
+          }
+        },
+        GetParam());
   }
 }
 
@@ -54,35 +57,42 @@ TEST_P(EpochTest, EveryWaiterLeavesAfterTheEpochItSaw) {
   constexpr std::uint64_t kNumEpochs = 500;
   Epoch epoch;
   std::atomic<int> num_early = 0;
-  RunTasks(kNumTasks, [&](int task) {
-    if (task == 0) {
-      for (std::uint64_t i = 0; i < kNumEpochs; ++i) epoch.Advance();
-      return;
-    }
-    const WaitPolicy policy = task % 2 == 0 ? GetParam() : WaitPolicy::Block();
-    std::uint64_t seen = epoch.Read();
-    while (seen < kNumEpochs) {
-      epoch.AwaitPast(seen, policy);
-      const std::uint64_t now = epoch.Read();
-      num_early += now <= seen;
-      seen = now;
-    }
-  });
+  RunTasks(
+      kNumTasks,
+      [&](int task) {
+        if (task == 0) {
+          for (std::uint64_t i = 0; i < kNumEpochs; ++i) epoch.Advance();
+          return;
+        }
+        const WaitPolicy policy =
+            task % 2 == 0 ? GetParam() : WaitPolicy::Block();
+        std::uint64_t seen = epoch.Read();
+        while (seen < kNumEpochs) {
+          epoch.AwaitPast(seen, policy);
+          const std::uint64_t now = epoch.Read();
+          num_early += now <= seen;
+          seen = now;
+        }
+      },
+      GetParam());
   EXPECT_EQ(num_early, 0);
   EXPECT_EQ(epoch.Read(), kNumEpochs);
 }
 
 TEST_P(EpochTest, AdvancesOfSeveralTasksAllCount) {
   Epoch epoch;
-  RunTasks(4, [&](int task) {
-    if (task == 0) {
-      for (std::uint64_t seen = 0; seen < 1500; ++seen) {
-        epoch.AwaitPast(seen, GetParam());
-      }
-    } else {
-      for (int i = 0; i < 500; ++i) epoch.Advance();
-    }
-  });
+  RunTasks(
+      4,
+      [&](int task) {
+        if (task == 0) {
+          for (std::uint64_t seen = 0; seen < 1500; ++seen) {
+            epoch.AwaitPast(seen, GetParam());
+          }
+        } else {
+          for (int i = 0; i < 500; ++i) epoch.Advance();
+        }
+      },
+      GetParam());
   EXPECT_EQ(epoch.Read(), 1500u);
 }
 

@@ -77,20 +77,23 @@ TEST_P(EventTest, ClearBeforeTheLookMissesNoPost) {
   constexpr int kNumItems = 2000;
   Event changed(GetParam());
   std::atomic<int> num_written = 0;
-  RunTasks(2, [&](int task) {
-    if (task == 0) {
-      for (int item = 1; item <= kNumItems; ++item) {
-        num_written.store(item, std::memory_order_relaxed);
-        changed.Post();
-      }
-    } else {
-      for (;;) {
-        changed.Clear();
-        if (num_written.load(std::memory_order_relaxed) == kNumItems) break;
-        changed.Wait();
-      }
-    }
-  });
+  RunTasks(
+      2,
+      [&](int task) {
+        if (task == 0) {
+          for (int item = 1; item <= kNumItems; ++item) {
+            num_written.store(item, std::memory_order_relaxed);
+            changed.Post();
+          }
+        } else {
+          for (;;) {
+            changed.Clear();
+            if (num_written.load(std::memory_order_relaxed) == kNumItems) break;
+            changed.Wait();
+          }
+        }
+      },
+      GetParam());
   EXPECT_EQ(num_written, kNumItems);
 }
 
@@ -103,15 +106,18 @@ TEST_P(EventWaitersTest, OnePostReleasesAllWithTheData) {
     Event event(policy());
     int data = 0;
     std::atomic<int> sum = 0;
-    RunTasks(num_tasks() + 1, [&](int task) {
-      if (task == 0) {
-        data = 7;
-        event.Post();
-      } else {
-        event.Wait();
-        sum += data;
-      }
-    });
+    RunTasks(
+        num_tasks() + 1,
+        [&](int task) {
+          if (task == 0) {
+            data = 7;
+            event.Post();
+          } else {
+            event.Wait();
+            sum += data;
+          }
+        },
+        policy());
     EXPECT_EQ(sum, 7 * num_tasks());
   }
 }
@@ -122,18 +128,21 @@ TEST_P(EventWaitersTest, OnePostReleasesAllWithTheData) {
 TEST_P(EventWaitersTest, PostFollowedAtOnceByClearReleasesAll) {
   Event event(policy());
   std::atomic<int> num_left = num_tasks();
-  RunTasks(num_tasks() + 1, [&](int task) {
-    if (task == 0) {
-      YieldUntil([&] {
-        event.Post();
-        event.Clear();
-        return num_left == 0;
-      });
-    } else {
-      event.Wait();
-      --num_left;
-    }
-  });
+  RunTasks(
+      num_tasks() + 1,
+      [&](int task) {
+        if (task == 0) {
+          YieldUntil([&] {
+            event.Post();
+            event.Clear();
+            return num_left == 0;
+          });
+        } else {
+          event.Wait();
+          --num_left;
+        }
+      },
+      policy());
   EXPECT_FALSE(event.Test());
 }
 
@@ -143,12 +152,15 @@ TEST_P(EventWaitersTest, ChainOfEventsRunsInOrder) {
   std::vector<Event> events(size + 1);
   std::vector<int> order;
   events[0].Post();
-  RunTasks(num_tasks(), [&](int task) {
-    const auto k = static_cast<std::size_t>(task);
-    events[k].Wait();
-    order.push_back(task);
-    events[k + 1].Post();
-  });
+  RunTasks(
+      num_tasks(),
+      [&](int task) {
+        const auto k = static_cast<std::size_t>(task);
+        events[k].Wait();
+        order.push_back(task);
+        events[k + 1].Post();
+      },
+      policy());
   ASSERT_EQ(order.size(), size);
   for (int task = 0; task < num_tasks(); ++task) {
     EXPECT_EQ(order[static_cast<std::size_t>(task)], task);

@@ -109,20 +109,23 @@ TEST_P(ForeignPthreadTest, ComesAndGoesBesideTasks) {
   std::atomic<int> num_released = 0;
   for (int round = 0; round < 30; ++round) {
     Event event(GetParam());
-    RunTasks(3, [&](int task) {
-      if (task == 0) {
-        YieldUntil([&] { return WaitersFor(event).size() == 4; });
-        return event.Post();
-      }
-      std::vector<std::thread> threads;
-      for (int i = 0; i < 2; ++i) {
-        threads.emplace_back([&] {
-          event.Wait();
-          ++num_released;
-        });
-      }
-      for (std::thread& thread : threads) thread.join();
-    });
+    RunTasks(
+        3,
+        [&](int task) {
+          if (task == 0) {
+            YieldUntil([&] { return WaitersFor(event).size() == 4; });
+            return event.Post();
+          }
+          std::vector<std::thread> threads;
+          for (int i = 0; i < 2; ++i) {
+            threads.emplace_back([&] {
+              event.Wait();
+              ++num_released;
+            });
+          }
+          for (std::thread& thread : threads) thread.join();
+        },
+        GetParam());
   }
   EXPECT_EQ(num_released, 120);
 }

@@ -17,13 +17,16 @@ using LockTest = ByPolicyAndTasks;
 TEST_P(LockTest, OneTaskAtATimeHoldsIt) {
   Lock lock(policy());
   int total = 0;
-  RunTasks(num_tasks(), [&](int) {
-    for (int round = 0; round < num_rounds(); ++round) {
-      lock.On();
-      ++total;
-      lock.Off();
-    }
-  });
+  RunTasks(
+      num_tasks(),
+      [&](int) {
+        for (int round = 0; round < num_rounds(); ++round) {
+          lock.On();
+          ++total;
+          lock.Off();
+        }
+      },
+      policy());
   EXPECT_EQ(total, num_tasks() * num_rounds());
   EXPECT_EQ(lock.num_waiting(), 0);
   EXPECT_FALSE(lock.Test());
@@ -54,18 +57,21 @@ TEST_P(LockTest, TasksGetItInTheOrderInWhichTheyAsked) {
 TEST_P(LockTest, TestThatReturnsFalseExcludesOthers) {
   Lock lock(policy());
   int total = 0;
-  RunTasks(num_tasks(), [&](int task) {
-    for (int round = 0; round < num_rounds(); ++round) {
-      if (task % 2 == 0) {
-        while (lock.Test()) {
+  RunTasks(
+      num_tasks(),
+      [&](int task) {
+        for (int round = 0; round < num_rounds(); ++round) {
+          if (task % 2 == 0) {
+            while (lock.Test()) {
+            }
+          } else {
+            lock.On();
+          }
+          ++total;
+          lock.Off();
         }
-      } else {
-        lock.On();
-      }
-      ++total;
-      lock.Off();
-    }
-  });
+      },
+      policy());
   EXPECT_EQ(total, num_tasks() * num_rounds());
 }
 
@@ -107,13 +113,16 @@ TEST_P(LockOwnerTest, TwoLocksPassTheTurnBetweenTwoTasks) {
   turns[0].On();
   turns[1].On();
   turns[0].Off();
-  RunTasks(2, [&](int task) {
-    for (int round = 0; round < 500; ++round) {
-      turns[task].On();
-      order.push_back(task);
-      turns[1 - task].Off();
-    }
-  });
+  RunTasks(
+      2,
+      [&](int task) {
+        for (int round = 0; round < 500; ++round) {
+          turns[task].On();
+          order.push_back(task);
+          turns[1 - task].Off();
+        }
+      },
+      GetParam());
   ASSERT_EQ(order.size(), 1000u);
   for (std::size_t i = 0; i < order.size(); ++i) {
     ASSERT_EQ(order[i], static_cast<int>(i % 2)) << "turn " << i;

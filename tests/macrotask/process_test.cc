@@ -25,7 +25,8 @@ using ProcessEndTest = ProcessTest;
 TEST_F(ProcessEndTest, JoinsIdlePthreads) {
   EXPECT_EXIT(
       {
-        RunTasks(16, [](int) {});
+        RunTasks(
+            16, [](int) {}, WaitPolicy::Hold());
         std::exit(0);
       },
       testing::ExitedWithCode(0), "");
@@ -52,24 +53,28 @@ TEST_F(ProcessEndTest, LetsAStaticObjectRunTasksAtItsEnd) {
       {
         struct Late {
           ~Late() {
-            RunTasks(3, [](int) {});
+            RunTasks(
+                3, [](int) {}, WaitPolicy::Hold());
             std::fputs("late", stderr);
           }
         };
         static Late destroyed_after_the_pool;
-        RunTasks(2, [](int) {});
+        RunTasks(
+            2, [](int) {}, WaitPolicy::Hold());
         std::exit(0);
       },
       testing::ExitedWithCode(0), "late");
 }
 
 TEST_F(ProcessEndTest, ATaskMayEndTheProcess) {
-  EXPECT_EXIT(RunTasks(4,
-                       [](int task) {
-                         if (task == 2) std::exit(3);
-                         Event never;
-                         never.Wait();
-                       }),
+  EXPECT_EXIT(RunTasks(
+                  4,
+                  [](int task) {
+                    if (task == 2) std::exit(3);
+                    Event never;
+                    never.Wait();
+                  },
+                  WaitPolicy::Hold()),
               testing::ExitedWithCode(3), "");
 }
 
@@ -91,12 +96,15 @@ void LimitAddressSpace() {
   int num_runs = 0;
   LimitAddressSpace();
   try {
-    RunTasks(10000, [&](int) { ++num_runs; });
+    RunTasks(
+        10000, [&](int) { ++num_runs; }, WaitPolicy::Hold());
   } catch (const std::system_error& error) {
     std::fprintf(stderr, "<%s>", error.what());
     if (error.code() != std::errc::resource_unavailable_try_again) return;
   }
-  RunTasks(3, [](int) {});  // The threads obtained have been given back.
+  RunTasks(
+      3, [](int) {},
+      WaitPolicy::Hold());  // The threads obtained have been given back.
   std::exit(num_runs == 0 ? 0 : 1);
 }
 

@@ -70,21 +70,25 @@ void YieldUntil(const Condition& condition) {
 // behind if the barrier opened early, one ahead if a task came round too soon.
 // The slots are atomic, so that a broken barrier is a wrong number and no race.
 template <typename Sync>
-int CountPhaseErrors(int num_tasks, int num_phases, const Sync& sync) {
+int CountPhaseErrors(int num_tasks, int num_phases, const Sync& sync,
+                     WaitPolicy wait = WaitPolicy::Hold()) {
   std::vector<CacheAligned<std::atomic<int>>> phase_of(
       static_cast<std::size_t>(num_tasks));
   std::atomic<int> num_errors = 0;
-  RunTasks(num_tasks, [&](int task) {
-    for (int phase = 1; phase <= num_phases; ++phase) {
-      phase_of[static_cast<std::size_t>(task)]->store(
-          phase, std::memory_order_relaxed);
-      sync(task);
-      for (const auto& other : phase_of) {
-        if (other->load(std::memory_order_relaxed) != phase) ++num_errors;
-      }
-      sync(task);
-    }
-  });
+  RunTasks(
+      num_tasks,
+      [&](int task) {
+        for (int phase = 1; phase <= num_phases; ++phase) {
+          phase_of[static_cast<std::size_t>(task)]->store(
+              phase, std::memory_order_relaxed);
+          sync(task);
+          for (const auto& other : phase_of) {
+            if (other->load(std::memory_order_relaxed) != phase) ++num_errors;
+          }
+          sync(task);
+        }
+      },
+      wait);
   return num_errors;
 }
 

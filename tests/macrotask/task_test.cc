@@ -68,11 +68,14 @@ TEST_P(TaskTest, SeveralTasksMayWaitForOne) {
         result = 3;
       },
       {.wait = GetParam()});
-  RunTasks(7, [&](int task) {
-    if (task == 0) may_end.Post();
-    awaited.Wait();
-    sum += result;
-  });
+  RunTasks(
+      7,
+      [&](int task) {
+        if (task == 0) may_end.Post();
+        awaited.Wait();
+        sum += result;
+      },
+      GetParam());
   EXPECT_EQ(sum, 21);
 }
 
@@ -80,15 +83,18 @@ TEST_P(TaskTest, WhatTheBodyThrowsReachesEveryWaiterEveryTime) {
   Task failing([] { throw std::runtime_error("no convergence"); },
                {.wait = GetParam()});
   std::atomic<int> num_caught = 0;
-  RunTasks(4, [&](int) {
-    for (int i = 0; i < 2; ++i) {
-      try {
-        failing.Wait();
-      } catch (const std::runtime_error& error) {
-        num_caught += std::string(error.what()) == "no convergence";
-      }
-    }
-  });
+  RunTasks(
+      4,
+      [&](int) {
+        for (int i = 0; i < 2; ++i) {
+          try {
+            failing.Wait();
+          } catch (const std::runtime_error& error) {
+            num_caught += std::string(error.what()) == "no convergence";
+          }
+        }
+      },
+      GetParam());
   EXPECT_EQ(num_caught, 8);
   EXPECT_FALSE(failing.Test());
 }
@@ -245,7 +251,8 @@ TEST_P(NestedRunTasksTest, EachRunHasItsOwnBarriers) {
       [&](int) {
         for (int round = 0; round < 5; ++round) {
           Barrier inner(4, GetParam());
-          num_errors += CountPhaseErrors(4, 10, [&](int) { inner.Sync(); });
+          num_errors += CountPhaseErrors(
+              4, 10, [&](int) { inner.Sync(); }, GetParam());
           outer.Sync();
         }
       },

@@ -31,8 +31,9 @@ void ExitByItself() { std::exit(0); }
 void Trace65(const std::string& path) {
   SetTraceFile(path);
   SetTraceClasses(kAllTraceClasses);
-  RunTasks(3,
-           [](int task) { RecordUser(65, static_cast<std::uint64_t>(task)); });
+  RunTasks(
+      3, [](int task) { RecordUser(65, static_cast<std::uint64_t>(task)); },
+      WaitPolicy::Hold());
 }
 
 // The data of all entries 65.
@@ -116,7 +117,8 @@ TEST_F(TraceEndTest, IsSwitchedOnByTheEnvironment) {
       {
         if (TraceFile() != path_) _exit(1);
         if (TraceClasses() != kAllTraceClasses) _exit(2);
-        RunTasks(2, [](int) { RecordUser(65, 7); });
+        RunTasks(
+            2, [](int) { RecordUser(65, 7); }, WaitPolicy::Hold());
         ExitByItself();
       },
       testing::ExitedWithCode(0), "^$");

@@ -177,7 +177,8 @@ void UseEverything() {
   Barrier(1).Sync();
   Event never(WaitPolicy::Block());
   Barrier both(2, WaitPolicy::Block());
-  RunTasks(2, [&](int) { both.Sync(); });
+  RunTasks(
+      2, [&](int) { both.Sync(); }, WaitPolicy::Hold());
   RecordUser(65, 1);
   SetTraceClasses(TraceClasses());
 }
