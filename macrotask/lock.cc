@@ -1,27 +1,30 @@
 #include "macrotask/lock.h"
 
 #include "macrotask/epoch.h"
-#include "macrotask/logical_wait.h"
-#include "macrotask/task_registry.h"
-#include "macrotask/trace_point.h"
 
-// First come, first served: the bit of the queue is set exactly while the queue
-// is not empty (both change under the mutex), hence the state is never 0 while
-// somebody is queued, and nobody who comes later gets past the CAS from 0.
-// Off() finds the bit and passes the lock on without clearing it.
+// Why nobody is lost.
+//
+// While the lock is cleared by exchange, the bit of the queue is set as long as
+// somebody is queued: whoever clears the lock either finds the bit, and passes
+// the lock on without clearing it, or clears it before anybody is queued, who
+// then finds it clear.
+//
+// A store is cheaper, but may wipe the bit out. So the first one to queue ends
+// the stores, and Off() asks once more after its store whether stores are
+// allowed; if not, it helps the queue. It is not told wrong:
+// - If it asks after the heavy fence of EndStores(), it learns of the end.
+// - If it asks before, its store is before the fence as well, hence in the
+//   memory when the queue begins behind the fence, and wipes out nothing.
+// Stores begin again only with an empty queue, and never end without a fence:
+// whoever is told that they are allowed again has nobody to help.
+//
+// A bit may be missing, then, but only while somebody is in Off() who is going
+// to help. This task runs, so that there is no false alarm of a deadlock.
+//
+// First come, first served: TryOn() fails as long as somebody is queued, also
+// while the lock is clear because a bit has been wiped out.
 
 namespace macrotask {
-namespace {
-
-constexpr std::uint64_t kClear = 0;
-constexpr std::uint64_t kSet = 1;
-constexpr std::uint64_t kQueued = 2;
-
-constexpr std::uint64_t SetBy(std::uint32_t task) {
-  return std::uint64_t{task} << 2 | kSet;
-}
-
-}  // namespace
 
 // A task in the queue; lives on its stack.
 struct Lock::Waiter {
@@ -30,110 +33,135 @@ struct Lock::Waiter {
   const std::uint32_t task = RecordOfCaller().number();
 };
 
-bool Lock::TryOn() {
-  std::uint64_t expected = kClear;
-  // Acquire: partner of the release in Off(). Relaxed on failure: nothing is
-  // read under a lock that was not obtained.
-  return state_.compare_exchange_strong(expected, SetBy(number_of_caller),
-                                        std::memory_order_acquire,
-                                        std::memory_order_relaxed);
+void Lock::AwaitTurn() {
+  Waiter self;
+  if (!Enqueue(self)) return;
+  self.handed_over.AwaitPast(0, policy_, {ObjectKind::kLock, number_, this});
 }
 
 // Queues the caller and returns true, or returns false if it now holds the
 // lock.
 bool Lock::Enqueue(Waiter& self) {
   const MutexGuard guard(mutex_);
-  if (head_ == nullptr) {
-    std::uint64_t state = state_.load(std::memory_order_relaxed);
-    // The holder may clear the lock as long as nobody is queued, and another
-    // task may take it again: until one of the two steps has succeeded.
-    // Relaxed: the mutex orders the queue, the hand-over orders the data.
-    while (state == kClear ||
-           !state_.compare_exchange_weak(state, state | kQueued,
-                                         std::memory_order_relaxed)) {
-      if (TryOn()) return false;
-      state = state_.load(std::memory_order_relaxed);
-    }
-    head_ = &self;
-  } else {
-    tail_->next = &self;
-  }
-  tail_ = &self;
   ++num_waiting_;
-  return true;
+  if (head_.load(std::memory_order_relaxed) != nullptr) {
+    tail_->next = &self;
+    tail_ = &self;
+    return true;
+  }
+  EndStores();
+  // Relaxed, as all of the queue: the mutex orders it.
+  head_.store(&self, std::memory_order_relaxed);
+  tail_ = &self;
+  return Settle() == nullptr;
 }
 
-void Lock::On() {
-  RecordAround(TraceClass::kLocks, TraceAction::kLockOn,
-               TraceAction::kLockOnEnd, TraceData(number_),
-               [this] { OnUntraced(); });
+// Requires: mutex_, an empty queue.
+void Lock::EndStores() {
+  num_exchanges_.store(0, std::memory_order_relaxed);
+  if (clearing_.load(std::memory_order_relaxed) == kByExchange) return;
+  clearing_.store(kByExchange, std::memory_order_relaxed);
+  HeavyFence();  // Partner of the light one in Off().
 }
 
-void Lock::OnUntraced() {
-  if (TryOn()) return;
-  Waiter self;
-  if (!Enqueue(self)) return;
-  self.handed_over.AwaitPast(0, policy_, {ObjectKind::kLock, number_, this});
+// By one who has found for long that nobody queues.
+void Lock::BeginStores() {
+  const MutexGuard guard(mutex_);
+  if (head_.load(std::memory_order_relaxed) != nullptr) return;
+  clearing_.store(kByStore, std::memory_order_relaxed);
 }
 
-void Lock::Off() {
-  RecordIf(TraceClass::kLocks, TraceAction::kLockOff, TraceData(number_));
+// Gives a clear lock to the head of the queue, which it returns, or sees to it
+// that the holder will know of the queue, and returns null.
+// Requires: mutex_, somebody is queued.
+Lock::Waiter* Lock::Settle() {
+  const Waiter* const head = head_.load(std::memory_order_relaxed);
+  const std::uint64_t handed_over =
+      SetBy(head->task) | (head->next != nullptr ? kQueued : 0);
+  std::uint64_t state = state_.load(std::memory_order_relaxed);
+  // The holder may clear the lock meanwhile, and another task that has seen no
+  // queue may take it: until one of the two steps has succeeded.
+  while (!(state & kQueued)) {
+    const bool is_clear = state == kClear;
+    // Acquire: partner of the release in Off() and OffByExchange(), for the
+    // head. Relaxed on failure: the next round looks again.
+    if (state_.compare_exchange_weak(
+            state, is_clear ? handed_over : state | kQueued,
+            std::memory_order_acquire, std::memory_order_relaxed)) {
+      return is_clear ? Dequeue() : nullptr;
+    }
+  }
+  return nullptr;
+}
+
+// Requires: mutex_, somebody is queued.
+Lock::Waiter* Lock::Dequeue() {
+  Waiter* const head = head_.load(std::memory_order_relaxed);
+  head_.store(head->next, std::memory_order_relaxed);
+  --num_waiting_;
+  return head;
+}
+
+void Lock::OffByExchange() {
+  // Before the lock is clear: then others want the line. That unlockings at the
+  // same time are counted once does no harm.
+  const std::uint32_t num_exchanges =
+      num_exchanges_.load(std::memory_order_relaxed) + 1;
+  num_exchanges_.store(num_exchanges, std::memory_order_relaxed);
   // Nearly always; and a guess is cheaper than a look.
   std::uint64_t state = SetBy(number_of_caller);
-  // Release: partner of the acquire in TryOn(). A failure is another task's
-  // lock, one that has queued itself, or one that unlocks as well: look again.
+  // Release: partner of the acquire in TryOn() and Settle(). A failure is
+  // another task's lock, one that has queued itself, or one that unlocks as
+  // well: look again.
   while (!(state & kQueued)) {
     if (state_.compare_exchange_strong(state, kClear, std::memory_order_release,
                                        std::memory_order_relaxed)) {
+      if (has_heavy_fence && num_exchanges >= kLightFencesPerHeavyOne) {
+        BeginStores();
+      }
       return;
     }
   }
+  HandOver();
+}
+
+void Lock::HandOver() {
   Waiter* next_holder = nullptr;
   {
     const MutexGuard guard(mutex_);
-    next_holder = head_;
-    if (next_holder == nullptr) {
+    if (head_.load(std::memory_order_relaxed) == nullptr) {
       // Somebody else has unlocked meanwhile: the same step once more, with the
       // same partner. Nobody can queue, which takes the mutex.
       state_.store(kClear, std::memory_order_release);
       return;
     }
-    head_ = next_holder->next;
-    --num_waiting_;
+    next_holder = Dequeue();
     // Relaxed: the lock stays set, so that nobody acquires from this store. The
     // new holder acquires from its epoch.
-    state_.store(SetBy(next_holder->task) | (head_ != nullptr ? kQueued : 0),
-                 std::memory_order_relaxed);
+    state_.store(
+        SetBy(next_holder->task) | (next_holder->next != nullptr ? kQueued : 0),
+        std::memory_order_relaxed);
   }
   // The last touch: from here on the new holder may leave, and its stack with
   // the Waiter.
   next_holder->handed_over.Advance();
 }
 
-bool Lock::Test() {
-  // The load keeps the line shared among those who spin; a failing CAS would
-  // fetch it exclusively every time.
-  const bool was_set =
-      state_.load(std::memory_order_relaxed) != kClear || !TryOn();
-  RecordIf(TraceClass::kLocks,
-           was_set ? TraceAction::kLockTestSet : TraceAction::kLockTestOn,
-           TraceData(number_, was_set ? 1 : 0));
-  if (was_set) GiveWay();
-  return was_set;
+// By one who has cleared the lock by a store and may have wiped the bit of the
+// queue out.
+void Lock::HelpQueue() {
+  Waiter* next_holder = nullptr;
+  {
+    const MutexGuard guard(mutex_);
+    if (head_.load(std::memory_order_relaxed) == nullptr) return;
+    next_holder = Settle();
+  }
+  if (next_holder != nullptr) next_holder->handed_over.Advance();
 }
 
 int Lock::num_waiting() const {
   const MutexGuard guard(mutex_);
   return num_waiting_;
-}
-
-bool Lock::is_set() const {
-  return state_.load(std::memory_order_relaxed) != kClear;
-}
-
-std::uint32_t Lock::holder() const {
-  return static_cast<std::uint32_t>(state_.load(std::memory_order_relaxed) >>
-                                    2);
 }
 
 }  // namespace macrotask

@@ -3,8 +3,13 @@
 #include <atomic>
 #include <cstdint>
 
+#include "macrotask/asymmetric_fence.h"
 #include "macrotask/cache_line.h"
+#include "macrotask/load.h"
+#include "macrotask/logical_wait.h"
 #include "macrotask/mutex.h"
+#include "macrotask/task_registry.h"
+#include "macrotask/trace_point.h"
 #include "macrotask/wait_policy.h"
 #include "macrotask/waited_object.h"
 
@@ -19,9 +24,11 @@ namespace macrotask {
 // return from any of its functions.
 // Memory ordering: what a task wrote before Off() is visible to the task that
 // holds the lock next, be it through On() or a Test() that returned false.
-// Cost: uncontended, one atomic read-modify-write each for On(), Off() and
-// Test(); with a queue, a hand-over to its head (bench rows "LOCKON" and
-// "LOCKTEST").
+// Cost: uncontended, as the simplest lock that there is, one atomic
+// read-modify-write for On() or for a Test() that returns false, and a store
+// for Off(). With a queue, a hand-over to its head. The first one to queue pays
+// a heavy fence (asymmetric_fence.h), and Off() is a read-modify-write as well
+// until it has found no queue 4096 times (bench rows "LOCKON" and "LOCKTEST").
 //
 //   Lock lock;
 //   lock.On();
@@ -66,20 +73,92 @@ class Lock {
  private:
   struct Waiter;
 
+  // How Off() clears the lock. No enum class: the checkers print it.
+  enum Clearing : std::uint32_t { kByExchange, kByStore };
+
+  static constexpr std::uint64_t kClear = 0;
+  static constexpr std::uint64_t kSet = 1;
+  static constexpr std::uint64_t kQueued = 2;
+  static constexpr std::uint64_t SetBy(std::uint32_t task) {
+    return std::uint64_t{task} << 2 | kSet;
+  }
+
   bool TryOn();
-  void OnUntraced();
+  void AwaitTurn();
+  void OffByExchange();
+  void HandOver();
+  void HelpQueue();
   bool Enqueue(Waiter& self);
+  Waiter* Settle();
+  Waiter* Dequeue();
+  void EndStores();
+  void BeginStores();
 
   // 0 clear; else set: holder << 2 | somebody_is_queued << 1 | 1. On a line of
-  // its own, because tasks spin on it.
-  alignas(kCacheLine) std::atomic<std::uint64_t> state_{0};
+  // its own, because tasks spin on it, with what they need besides.
+  alignas(kCacheLine) std::atomic<std::uint64_t> state_{kClear};
+  std::atomic<Clearing> clearing_{has_heavy_fence ? kByStore : kByExchange};
+  std::atomic<std::uint32_t> num_exchanges_{0};  // since somebody was queued
+  std::atomic<Waiter*> head_{nullptr};           // written under mutex_
 
   alignas(kCacheLine) mutable Mutex mutex_;  // guards the queue
-  Waiter* head_ = nullptr;
   Waiter* tail_ = nullptr;
   int num_waiting_ = 0;
   const WaitPolicy policy_;
   const std::uint32_t number_ = NextNumber(ObjectKind::kLock);
 };
+
+inline bool Lock::TryOn() {
+  // Behind those who are queued already.
+  if (head_.load(std::memory_order_relaxed) != nullptr) return false;
+  std::uint64_t expected = kClear;
+  // Acquire: partner of the release in Off() and OffByExchange(). Relaxed on
+  // failure: nothing is read under a lock that was not obtained.
+  return state_.compare_exchange_strong(expected, SetBy(number_of_caller),
+                                        std::memory_order_acquire,
+                                        std::memory_order_relaxed);
+}
+
+inline void Lock::On() {
+  RecordAround(TraceClass::kLocks, TraceAction::kLockOn,
+               TraceAction::kLockOnEnd, TraceData(number_), [this] {
+                 if (!TryOn()) AwaitTurn();
+               });
+}
+
+inline void Lock::Off() {
+  RecordIf(TraceClass::kLocks, TraceAction::kLockOff, TraceData(number_));
+  if (clearing_.load(std::memory_order_relaxed) != kByStore) {
+    return OffByExchange();
+  }
+  // Release: partner of the acquire in TryOn() and Settle().
+  state_.store(kClear, std::memory_order_release);
+  LightFence();  // Partner of the heavy one in EndStores().
+  if (clearing_.load(std::memory_order_relaxed) != kByStore) HelpQueue();
+}
+
+inline bool Lock::Test() {
+  // The load keeps the line shared among those who spin; a failing CAS would
+  // fetch it exclusively every time.
+  const bool was_set =
+      state_.load(std::memory_order_relaxed) != kClear || !TryOn();
+  RecordIf(TraceClass::kLocks,
+           was_set ? TraceAction::kLockTestSet : TraceAction::kLockTestOn,
+           TraceData(number_, was_set ? 1 : 0));
+  // As GiveWay() asks; here to spare the call.
+  const bool others_run =
+      processor_of_caller != nullptr || MoreTasksThanProcessors();
+  if (was_set && others_run) GiveWay();
+  return was_set;
+}
+
+inline bool Lock::is_set() const {
+  return state_.load(std::memory_order_relaxed) != kClear;
+}
+
+inline std::uint32_t Lock::holder() const {
+  return static_cast<std::uint32_t>(state_.load(std::memory_order_relaxed) >>
+                                    2);
+}
 
 }  // namespace macrotask

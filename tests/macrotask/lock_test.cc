@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <deque>
 #include <vector>
 
+#include "macrotask/asymmetric_fence.h"
+#include "macrotask/barrier.h"
 #include "macrotask/event.h"
 #include "macrotask/task.h"
 #include "tests/macrotask/support.h"
@@ -73,6 +76,27 @@ TEST_P(LockTest, TestThatReturnsFalseExcludesOthers) {
       },
       policy());
   EXPECT_EQ(total, num_tasks() * num_rounds());
+}
+
+// No task is promised to be alone then, but each must get the lock.
+TEST_P(LockTest, NobodyIsLostWhenSeveralTasksUnlockAtOnce) {
+  constexpr int kNumUnlockers = 2;
+  for (int round = 0; round < num_rounds() / 10; ++round) {
+    Lock lock(policy());
+    std::atomic<int> num_through = 0;
+    lock.On();
+    RunTasks(
+        kNumUnlockers + num_tasks(),
+        [&](int task) {
+          if (task < kNumUnlockers) return lock.Off();
+          lock.On();
+          ++num_through;
+          lock.Off();
+        },
+        policy());
+    EXPECT_EQ(num_through, num_tasks());
+    EXPECT_EQ(lock.num_waiting(), 0);
+  }
 }
 
 INSTANTIATE_BY_POLICY_AND_TASKS(LockTest);
@@ -166,6 +190,51 @@ TEST_P(LockOwnerTest, IsHeldByTheTaskThatItIsHandedTo) {
   looked.Post();
   next.Wait();
   EXPECT_FALSE(lock.is_set());
+}
+
+// The first one to queue at a lock may find its holder in the middle of
+// unlocking by a store, which is not allowed from then on.
+TEST_P(LockOwnerTest, NobodyIsLostWhoQueuesWhileTheHolderUnlocks) {
+  constexpr int kNumLocks = 20'000;
+  std::deque<Lock> locks;
+  for (int i = 0; i < kNumLocks; ++i) locks.emplace_back(GetParam());
+  Barrier barrier(2, GetParam());
+  RunTasks(
+      2,
+      [&](int task) {
+        int num_locks = 0;
+        for (Lock& lock : locks) {
+          if (task == 0) lock.On();
+          barrier.Sync();
+          if (task == 1) lock.On();
+          // Now and then just as long as the other task takes to queue.
+          for (int i = ++num_locks % 256; i > 0; --i) asm volatile("");
+          lock.Off();
+        }
+      },
+      GetParam());
+}
+
+// However Off() clears the lock by then.
+TEST_P(LockOwnerTest, IsHandedOverAfterAnyNumberOfTurnsWithoutAQueue) {
+  for (const int surplus : {-kLightFencesPerHeavyOne, -1, 0, 1, 2, 100}) {
+    Lock lock(GetParam());
+    for (int queue = 0; queue < 3; ++queue) {
+      for (int turn = 0; turn < kLightFencesPerHeavyOne + surplus; ++turn) {
+        lock.On();
+        lock.Off();
+      }
+      lock.On();
+      Task next([&] {
+        lock.On();
+        lock.Off();
+      });
+      YieldUntil([&] { return lock.num_waiting() == 1; });
+      lock.Off();
+      next.Wait();
+      EXPECT_FALSE(lock.is_set());
+    }
+  }
 }
 
 TEST(LockNumberTest, GrowsByOneWithEveryLock) {

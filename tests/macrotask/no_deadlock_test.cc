@@ -182,6 +182,28 @@ TEST_P(NoDeadlockStressTest, OneLockHandedRound) {
   EXPECT_EQ(total, kNumWaits / num_tasks() * num_tasks());
 }
 
+// The first one to queue makes the holder unlock in another way, and may find it
+// in the middle of that.
+TEST_P(NoDeadlockStressTest, ManyLocksOneAfterTheOther) {
+  std::deque<Lock> locks;
+  for (int i = 0; i < kNumWaits / 4 / num_tasks(); ++i) {
+    locks.emplace_back(policy());
+  }
+  std::vector<int> totals(locks.size());
+  RunTasks(
+      num_tasks(),
+      [&](int) {
+        for (std::size_t i = 0; i < locks.size(); ++i) {
+          locks[i].On();
+          ++totals[i];
+          if (i % 16 == 0) sched_yield();  // so that others queue
+          locks[i].Off();
+        }
+      },
+      policy());
+  EXPECT_EQ(totals, std::vector<int>(locks.size(), num_tasks()));
+}
+
 TEST_P(NoDeadlockStressTest, BarriersAndTasks) {
   Barrier barrier(num_tasks(), policy());
   std::atomic<int> total = 0;

@@ -33,7 +33,7 @@ std::string_view Name(std::memory_order order) {
 
 std::string_view Name(Step step) {
   static constexpr std::string_view kNames[] = {"load", "store", "change",
-                                                "failure"};
+                                                "failure", "fence"};
   return kNames[static_cast<std::size_t>(step)];
 }
 
@@ -77,7 +77,8 @@ std::memory_order OfFailure(std::memory_order order) {
 rl::memory_order Order(Step step, std::memory_order order,
                        const std::source_location& where) {
   const bool acquires = step != Step::kStore;
-  const bool releases = step == Step::kStore || step == Step::kChange;
+  const bool releases =
+      step == Step::kStore || step == Step::kChange || step == Step::kFence;
   if (order == seq_cst) {
     Note(step, order,
          acquires && releases ? acq_rel

@@ -11,7 +11,7 @@
 
 namespace macrotask::checked {
 
-enum class Step { kLoad, kStore, kChange, kFailure };
+enum class Step { kLoad, kStore, kChange, kFailure, kFence };
 
 // One order in the source made weaker.
 struct Weakening {
