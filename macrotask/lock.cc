@@ -33,6 +33,13 @@ struct Lock::Waiter {
   const std::uint32_t task = RecordOfCaller().number();
 };
 
+void Lock::OnTraced() {
+  RecordWait(TraceAction::kLockOn, TraceAction::kLockOnEnd, TraceData(number_),
+             [this] {
+               if (!TryOn()) AwaitTurn();
+             });
+}
+
 void Lock::AwaitTurn() {
   Waiter self;
   if (!Enqueue(self)) return;

@@ -84,6 +84,7 @@ class Lock {
   }
 
   bool TryOn();
+  void OnTraced();
   void AwaitTurn();
   void OffByExchange();
   void HandOver();
@@ -120,14 +121,17 @@ inline bool Lock::TryOn() {
 }
 
 inline void Lock::On() {
-  RecordAround(TraceClass::kLocks, TraceAction::kLockOn,
-               TraceAction::kLockOnEnd, TraceData(number_), [this] {
-                 if (!TryOn()) AwaitTurn();
-               });
+  if (IsTraced(TraceClass::kLocks)) [[unlikely]] {
+    return OnTraced();
+  }
+  if (!TryOn()) AwaitTurn();
 }
 
 inline void Lock::Off() {
-  RecordIf(TraceClass::kLocks, TraceAction::kLockOff, TraceData(number_));
+  // The number, on another line, only now.
+  if (IsTraced(TraceClass::kLocks)) [[unlikely]] {
+    Record(TraceAction::kLockOff, TraceData(number_));
+  }
   if (clearing_.load(std::memory_order_relaxed) != kByStore) {
     return OffByExchange();
   }
@@ -142,9 +146,10 @@ inline bool Lock::Test() {
   // fetch it exclusively every time.
   const bool was_set =
       state_.load(std::memory_order_relaxed) != kClear || !TryOn();
-  RecordIf(TraceClass::kLocks,
-           was_set ? TraceAction::kLockTestSet : TraceAction::kLockTestOn,
+  if (IsTraced(TraceClass::kLocks)) [[unlikely]] {
+    Record(was_set ? TraceAction::kLockTestSet : TraceAction::kLockTestOn,
            TraceData(number_, was_set ? 1 : 0));
+  }
   // As GiveWay() asks; here to spare the call.
   const bool others_run =
       processor_of_caller != nullptr || MoreTasksThanProcessors();
