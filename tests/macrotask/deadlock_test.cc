@@ -71,7 +71,7 @@ TEST_P(DeadlockTest, AllWaitForAnEvent) {
       [&] {
         Event never(policy());
         RunTasks(
-            num_tasks(), [&](int) { never.Wait(); }, policy());
+            num_tasks(), [&](int) { never.Wait(); }, OnPthreads(policy()));
       },
       Report(All(num_tasks(), "waiting for event 1")));
 }
@@ -81,7 +81,7 @@ TEST_P(DeadlockTest, AllWaitAtABarrierForOneMore) {
       [&] {
         Barrier barrier(num_tasks() + 1, policy());
         RunTasks(
-            num_tasks(), [&](int) { barrier.Sync(); }, policy());
+            num_tasks(), [&](int) { barrier.Sync(); }, OnPthreads(policy()));
       },
       Report(All(num_tasks(), "waiting for barrier 1")));
 }
@@ -100,7 +100,7 @@ TEST_P(DeadlockTest, OneTaskComesOnceTooOften) {
               for (int phase = 0; phase < 100; ++phase) barrier.Sync();
               if (task == 0) barrier.Sync();
             },
-            policy());
+            OnPthreads(policy()));
       },
       Report(states));
 }
@@ -111,7 +111,7 @@ TEST_P(DeadlockTest, AllWaitForALockOfTheFirstWhoWaitsForItAsWell) {
         Lock lock(policy());
         lock.On();
         RunTasks(
-            num_tasks(), [&](int) { lock.On(); }, policy());
+            num_tasks(), [&](int) { lock.On(); }, OnPthreads(policy()));
       },
       Report(All(num_tasks(), "waiting for lock 1, held by task 1"),
              "task 1 waits for lock 1, held by task 1"));
@@ -139,7 +139,7 @@ TEST_P(DeadlockTest, LocksAreHeldInACircle) {
               all_hold_one.Sync();
               locks[Index((task + 1) % num_tasks())].On();
             },
-            policy());
+            OnPthreads(policy()));
       },
       Report(states, cycle));
 }
@@ -210,7 +210,7 @@ TEST_P(DeadlockTest, TheLastTaskThatCouldRunEnds) {
               if (task < num_tasks()) never.Wait();
               YieldUntil([&] { return NumWaiting() == num_tasks(); });
             },
-            policy());
+            OnPthreads(policy()));
       },
       Report(states));
 }
@@ -253,7 +253,7 @@ TEST_P(DeadlockTest, TheLastForeignPthreadThatCouldRunEnds) {
               }
               never.Wait();
             },
-            policy());
+            OnPthreads(policy()));
       },
       Report(states));
 }

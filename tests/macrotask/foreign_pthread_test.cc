@@ -125,7 +125,7 @@ TEST_P(ForeignPthreadTest, ComesAndGoesBesideTasks) {
           }
           for (std::thread& thread : threads) thread.join();
         },
-        GetParam());
+        OnPthreads(GetParam()));
   }
   EXPECT_EQ(num_released, 120);
 }

@@ -17,6 +17,7 @@
 #include "macrotask/task_list.h"
 #include "macrotask/worker_pool.h"
 #include "tests/macrotask/process.h"
+#include "tests/macrotask/support.h"
 
 namespace macrotask {
 namespace {
@@ -139,11 +140,15 @@ TEST(LogicalTaskTest, KeepsTheExceptionThatItHandlesAcrossAWait) {
   EXPECT_EQ(num_right, kManyTasks);
 }
 
-TEST(LogicalTaskTest, MayNotUseABarrierThatBlocks) {
-  Barrier barrier(2, WaitPolicy::Block());
-  EXPECT_THROW(RunTasks(
-                   2, [&](int) { barrier.Sync(); }, WaitPolicy::Logical()),
-               std::logic_error);
+TEST(LogicalBarrierTest, MayBeOfAnyOtherPolicy) {
+  for (const WaitPolicy& policy : kAllPolicies) {
+    Barrier barrier(kManyTasks, policy);
+    EXPECT_EQ(CountPhaseErrors(
+                  kManyTasks, 20, [&](int) { barrier.Sync(); },
+                  WaitPolicy::Logical()),
+              0)
+        << Name(policy.kind);
+  }
 }
 
 TEST(LogicalTaskTest, HasTheStackThatWasAskedFor) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "macrotask/cache_line.h"
+#include "macrotask/logical_wait.h"
 #include "macrotask/task.h"
 #include "macrotask/wait_policy.h"
 
@@ -23,6 +24,11 @@ inline constexpr int kTaskCounts[] = {1, 2, 3, 4, 7, 16};
 // How a failing test shows its parameter.
 inline void PrintTo(const WaitPolicy& policy, std::ostream* out) {
   *out << Name(policy.kind);
+}
+
+// The policy for tasks that have a pthread each, whatever that of the objects.
+inline WaitPolicy OnPthreads(const WaitPolicy& policy) {
+  return policy.kind == WaitKind::kLogical ? WaitPolicy::Hold() : policy;
 }
 
 // A suite for every policy, and one for every policy and number of tasks.
@@ -62,7 +68,10 @@ inline std::string PolicyAndTasksName(
 // never comes.
 template <typename Condition>
 void YieldUntil(const Condition& condition) {
-  while (!condition()) sched_yield();
+  while (!condition()) {
+    sched_yield();
+    if (processor_of_caller != nullptr) GiveWay();
+  }
 }
 
 // Runs `num_tasks` tasks through `num_phases` phases, separated by sync(task).
