@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
+#include "bench/ping_pong.h"
 #include "macrotask/barrier.h"
 #include "macrotask/deadlock.h"
-#include "macrotask/event.h"
 #include "macrotask/lock.h"
 #include "macrotask/placement.h"
 #include "macrotask/task.h"
@@ -201,30 +201,9 @@ std::vector<Cost> MeasureSynchronization(macrotask::WaitPolicy wait,
                           barsync(n);
                           macrotask::SetTraceClasses(0);
                         }});
-    // There and back again, on fresh events, is two hand-overs.
-    measured.push_back(
-        {{"EVPOST to EVWAIT", "2 tasks, " + policy, {}}, calls, [wait](int n) {
-           macrotask::Event ping(wait), pong(wait);
-           const auto hand_over = [n](macrotask::Event& from,
-                                      macrotask::Event& to, bool first) {
-             for (int call = 0; call < n / 2; ++call) {
-               if (first) to.Post();
-               from.Wait();
-               from.Clear();
-               if (!first) to.Post();
-             }
-           };
-           RunTasks(
-               2,
-               [&](int task) {
-                 if (task == 0) {
-                   hand_over(pong, ping, true);
-                 } else {
-                   hand_over(ping, pong, false);
-                 }
-               },
-               wait);
-         }});
+    measured.push_back({{"EVPOST to EVWAIT", "2 tasks, " + policy, {}},
+                        calls,
+                        [wait](int n) { PingPong(wait, n); }});
   }
   return Interleave(std::move(measured), repetitions);
 }

@@ -231,7 +231,8 @@ Reproduction Reproduce(const ReproduceOptions& options) {
   Progress progress;
   Reproduction result;
   result.machine = DescribeMachine();
-  result.wait = options.wait;
+  // Only what has a processor for each task is timed.
+  result.wait = options.wait.For(macrotask::NumProcessors());
   result.placement =
       macrotask::Placement(macrotask::NumProcessors()).ToString();
   result.sweeps = SweepAll(&progress);
@@ -251,7 +252,7 @@ Reproduction Reproduce(const ReproduceOptions& options) {
 
   const LiftCase middle(dynamics::PumaLift(), 100);
   result.costs = MeasureBlocks(middle, options.repetitions);
-  for (Cost& cost : MeasureSynchronization(options.wait, options.repetitions)) {
+  for (Cost& cost : MeasureSynchronization(result.wait, options.repetitions)) {
     result.costs.push_back(std::move(cost));
   }
   return result;

@@ -128,11 +128,11 @@ std::string Report(const SimulateOptions& options, const LiftCase& lift,
       options.method, lift.num_steps(), lift.step(), tasks,
       Name(options.figure), options.partition.chain_tasks,
       options.partition.integration_tasks,
-      macrotask::Placement(tasks).ToString(), Name(options.wait.For(tasks).kind),
-      static_cast<int>(options.lanes), member.p[0], member.p[1], member.p[2],
-      member.Q[0], member.Q[1], member.Q[2], member.Q[3],
-      lift.Error(result.state), positions, rotations, result.evaluations,
-      result.seconds() * 1e6, result.start_seconds * 1e6,
+      macrotask::Placement(tasks).ToString(),
+      Name(options.wait.For(tasks).kind), static_cast<int>(options.lanes),
+      member.p[0], member.p[1], member.p[2], member.Q[0], member.Q[1],
+      member.Q[2], member.Q[3], lift.Error(result.state), positions, rotations,
+      result.evaluations, result.seconds() * 1e6, result.start_seconds * 1e6,
       duration / result.seconds());
 }
 

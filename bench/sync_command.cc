@@ -10,6 +10,7 @@
 #include "bench/command_options.h"
 #include "bench/output_file.h"
 #include "bench/progress.h"
+#include "bench/sync_hold_time.h"
 #include "bench/sync_report.h"
 #include "macrotask/placement.h"
 
@@ -116,6 +117,11 @@ void SyncCommand::Add(CLI::App* app) {
                 "How small the work between two barriers of two tasks may be, "
                 "instead of the tables; of the axes only --wait, --hold-time "
                 "and --placement count");
+  auto* const calibrate = app->add_flag(
+      "--calibrate", calibrate_,
+      "How long a wait should spin before it sleeps, instead of the tables; of "
+      "the other options only --repetitions counts");
+  calibrate->excludes(app->get_option("--break-even"));
   AddFile(app, "--csv", &csv_,
           "Write the rows to this file as CSV (- for the standard output, "
           "instead of the tables)");
@@ -134,7 +140,20 @@ void SyncCommand::CheckOutputs() const {
   }
 }
 
+void SyncCommand::Calibrate() const {
+  if (!csv_.empty() || !json_.empty()) {
+    throw std::invalid_argument(
+        "--calibrate prints one figure: expected no --csv and no --json");
+  }
+  Progress progress;
+  const HandOverSamples samples = MeasureHandOvers(
+      repetitions_,
+      [&](int done, int all) { progress.Show("calibrate", done, all); });
+  WriteOutput("-", HoldTimeText(CalcHoldTime(samples)));
+}
+
 void SyncCommand::Run() const {
+  if (calibrate_) return Calibrate();
   CheckOutputs();
   SyncAxes axes = axes_;
   axes.hold_time = std::chrono::microseconds(hold_time_us_);

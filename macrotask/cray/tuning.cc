@@ -95,7 +95,7 @@ std::optional<WaitKind> WaitKindOfEnvironment() {
   const char* const name = std::getenv("MACROTASK_WAIT");
   if (name == nullptr || *name == '\0') return std::nullopt;
   const auto kind = ParseWaitKind(name);
-  if (!kind || kind == WaitKind::kLogical) {
+  if (!kind || kind == WaitKind::kLogical || kind == WaitKind::kAuto) {
     throw std::runtime_error(std::string("MACROTASK_WAIT is '") + name +
                              "': expected block, spin or hold");
   }

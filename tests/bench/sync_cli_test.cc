@@ -90,13 +90,28 @@ TEST(SyncCli, BreakEvenNeedsTwoProcessors) {
             "1\n");
 }
 
+TEST(SyncCli, CalibratesTheHoldTime) {
+  const Outcome outcome = RunSync("--calibrate --repetitions 2");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(Has(outcome.text, "CALL TSKTUNE('HOLDTIME', ")) << outcome.text;
+}
+
+TEST(SyncCli, CalibrationNeedsTwoProcessors) {
+  const Outcome outcome = RunSync("--calibrate", "taskset -c 0 ");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.text,
+            "macrotask: --calibrate needs 2 processors: this process may use "
+            "1\n");
+}
+
 TEST(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
   for (const char* arguments :
        {"--wait never", "--wait ''", "--tasks 0", "--tasks two", "--tasks 1000",
         "--work -1", "--work x", "--skew early", "--placement here",
         "--constructs mutex", "--constructs barrier --tasks 1",
         "--constructs barrier,mutex", "--repetitions 0", "--hold-time -1",
-        "--csv x --json x", "--csv /none/x", "--barrier"}) {
+        "--csv x --json x", "--csv /none/x", "--calibrate --break-even",
+        "--calibrate --csv x", "--barrier"}) {
     const Outcome outcome = RunSync(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_TRUE(outcome.text.starts_with("macrotask: ")) << outcome.text;
