@@ -46,9 +46,10 @@ class BlockingBarrier {
 // must outlive the last return from Sync(). A barrier of 1 holds nobody.
 // Memory ordering: what any task wrote before its k-th Sync() is visible to
 // every task after its own k-th Sync() returns.
-// Cost: one atomic increment per task and one line that all waiters read; under
-// WaitPolicy::Block() a pthread_barrier_t, under WaitPolicy::Logical() one line
-// a processor (bench row "BARSYNC").
+// Cost: one atomic increment per task and one line that all waiters read; with
+// more tasks than processors the tasks of one processor meet first, and all but
+// one of them sleep. Under WaitPolicy::Block() a pthread_barrier_t, under
+// WaitPolicy::Logical() one line a processor (bench row "BARSYNC").
 //
 //   Barrier barrier(num_tasks);
 //   RunTasks(num_tasks, [&](int task) {

@@ -76,6 +76,8 @@ class Task {
 // other tasks are live (as in a RunTasks() within a task), which would share
 // those processors; the caller's affinity is restored at the end. A body that
 // throws while others wait for it at a barrier leaves them waiting for ever.
+// With more tasks than processors they take turns in user space (WaitPolicy
+// says what that means for a body), unless `wait` names another way.
 // Memory ordering: as if each task were started and waited for by the caller.
 // Failure: throws what the lowest-numbered task that threw has thrown;
 // std::invalid_argument if `num_tasks` < 1; std::system_error, with nothing
