@@ -29,7 +29,7 @@ std::uint64_t LogicalBarrier::EndOfPhase() const {
 void LogicalBarrier::Sync() {
   if (num_tasks_ == 1) return;
   LogicalProcessor* const processor = processor_of_caller;
-  if (processor == nullptr || processor->slot() == LogicalProcessor::kNoSlot) {
+  if (processor == nullptr || processor->slot() == LogicalSlot::kNone) {
     return SyncOfPthread();
   }
   Count& count = counts_[processor->slot()];

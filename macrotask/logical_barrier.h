@@ -53,7 +53,7 @@ class LogicalBarrier {
   struct alignas(kCacheLine) Line {
     std::atomic<std::uint64_t> arrivals{0};
   };
-  static constexpr int kSlotOfPthreads = LogicalProcessor::kMostSlots;
+  static constexpr int kSlotOfPthreads = LogicalSlot::kMost;
   static constexpr int kNumLines = kSlotOfPthreads + 1;
   static_assert(kNumLines <= 64, "one bit each");
 

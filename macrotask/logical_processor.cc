@@ -24,30 +24,6 @@
 namespace macrotask {
 namespace {
 
-std::atomic<std::uint64_t> slots_in_use{0};
-
-int TakeSlot() {
-  std::uint64_t in_use = slots_in_use.load(std::memory_order_relaxed);
-  for (;;) {
-    const int slot = std::countr_one(in_use);
-    if (slot == LogicalProcessor::kMostSlots) return LogicalProcessor::kNoSlot;
-    // Acquire: partner of the release in GiveSlot(): what the last processor
-    // with this slot left in the barriers.
-    if (slots_in_use.compare_exchange_weak(
-            in_use, in_use | std::uint64_t{1} << slot,
-            std::memory_order_acquire, std::memory_order_relaxed)) {
-      return slot;
-    }
-  }
-}
-
-void GiveSlot(int slot) {
-  if (slot == LogicalProcessor::kNoSlot) return;
-  // Release: partner of the acquire in TakeSlot().
-  slots_in_use.fetch_and(~(std::uint64_t{1} << slot),
-                         std::memory_order_release);
-}
-
 // The pthread's own, which the tasks of a processor never leave.
 ExceptionState& ExceptionsOfPthread() {
   return *reinterpret_cast<ExceptionState*>(abi::__cxa_get_globals());
@@ -61,11 +37,8 @@ bool BarrierIsPast(const void* task) {
 
 }  // namespace
 
-LogicalProcessor::LogicalProcessor() : slot_(TakeSlot()) {}
-
 LogicalProcessor::~LogicalProcessor() {
   for (LogicalTask* task : tasks_) LogicalTask::Give(task);
-  GiveSlot(slot_);
 }
 
 void LogicalProcessor::Add(const std::function<void(int)>& body, int index) {
@@ -213,7 +186,7 @@ inline LogicalTask* LogicalProcessor::FindRunnable(
 
 inline bool LogicalProcessor::IsOver(const LogicalTask& task) const {
   return task.barrier != nullptr
-             ? task.barrier->IsPast(task.end_of_phase, slot_)
+             ? task.barrier->IsPast(task.end_of_phase, slot())
              : task.is_over(task.wait);
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "macrotask/logical_slot.h"
 #include "macrotask/logical_task.h"
 #include "macrotask/wait_policy.h"
 
@@ -20,7 +21,7 @@ class LogicalBarrier;
 // (bench row "BARSYNC").
 class LogicalProcessor {
  public:
-  LogicalProcessor();
+  LogicalProcessor() = default;
   ~LogicalProcessor();
   LogicalProcessor(const LogicalProcessor&) = delete;
   LogicalProcessor& operator=(const LogicalProcessor&) = delete;
@@ -50,11 +51,7 @@ class LogicalProcessor {
   void FlushLater(LogicalBarrier* barrier) { unflushed_.push_back(barrier); }
   void IsFlushed(LogicalBarrier* barrier) { std::erase(unflushed_, barrier); }
 
-  // A number below kMostSlots that no other processor has at the same time, or
-  // kNoSlot if there are more.
-  static constexpr int kMostSlots = 63;
-  static constexpr int kNoSlot = -1;
-  int slot() const { return slot_; }
+  int slot() const { return slot_.number(); }
 
  private:
   friend struct LogicalTask;
@@ -76,7 +73,7 @@ class LogicalProcessor {
   void EndWaits();
   void Flush();
 
-  const int slot_;
+  const LogicalSlot slot_;
   std::vector<LogicalTask*> tasks_;  // in the order of Add()
   LogicalTask* current_ = nullptr;
   LogicalTask* previous_ = nullptr;       // who switched to current_

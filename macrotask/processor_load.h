@@ -37,11 +37,12 @@ inline constinit thread_local ProcessorLoad* load_of_own_processor
 // whose beginning it has been counted.
 class [[nodiscard]] ScopedProcessorLoad {
  public:
-  explicit ScopedProcessorLoad(ProcessorLoad* shared) : shared_(shared) {
+  explicit ScopedProcessorLoad(ProcessorLoad* shared)
+      : shared_(shared), before_(load_of_own_processor) {
     load_of_own_processor = shared;
   }
   ~ScopedProcessorLoad() {
-    load_of_own_processor = nullptr;
+    load_of_own_processor = before_;
     if (shared_ != nullptr) shared_->Add(-1);
   }
   ScopedProcessorLoad(const ScopedProcessorLoad&) = delete;
@@ -49,6 +50,7 @@ class [[nodiscard]] ScopedProcessorLoad {
 
  private:
   ProcessorLoad* const shared_;
+  ProcessorLoad* const before_;  // of the task that runs other tasks
 };
 
 }  // namespace macrotask
