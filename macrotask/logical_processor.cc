@@ -37,12 +37,8 @@ bool BarrierIsPast(const void* task) {
 
 }  // namespace
 
-LogicalProcessor::~LogicalProcessor() {
-  for (LogicalTask* task : tasks_) LogicalTask::Give(task);
-}
-
-void LogicalProcessor::Add(const std::function<void(int)>& body, int index) {
-  LogicalTask* const task = LogicalTask::Take();
+void LogicalProcessor::Add(LogicalTask* task,
+                           const std::function<void(int)>& body, int index) {
   task->processor = this;
   task->body = &body;
   task->index = index;
@@ -277,13 +273,16 @@ void GiveWay() {
 }
 
 void RunLogicalTasks(int num_tasks, const std::function<void(int)>& body) {
+  // Everything that can fail comes before the first start.
+  const LogicalTasks tasks(num_tasks);
   const Placement placement(num_tasks);
   RunTasks(
       std::min(NumProcessors(), num_tasks),
       [&](int p) {
         LogicalProcessor processor;
         for (int task = 0; task < num_tasks; ++task) {
-          if (placement.index(task) == p) processor.Add(body, task);
+          if (placement.index(task) != p) continue;
+          processor.Add(tasks[task], body, task);
         }
         if (const std::exception_ptr failure = processor.Run()) {
           std::rethrow_exception(failure);

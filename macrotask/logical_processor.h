@@ -22,13 +22,12 @@ class LogicalBarrier;
 class LogicalProcessor {
  public:
   LogicalProcessor() = default;
-  ~LogicalProcessor();
   LogicalProcessor(const LogicalProcessor&) = delete;
   LogicalProcessor& operator=(const LogicalProcessor&) = delete;
 
-  // Adds the task `index` of `body`, before Run(). The first one is given the
-  // record and the number of the pthread.
-  void Add(const std::function<void(int)>& body, int index);
+  // Adds `task`, which is to run body(index), before Run(). The first one is
+  // given the record and the number of the pthread.
+  void Add(LogicalTask* task, const std::function<void(int)>& body, int index);
 
   // Runs all tasks until they have ended. Returns what the first of them, in
   // the order in which they were added, has thrown.
@@ -87,7 +86,8 @@ class LogicalProcessor {
 
 // Runs body(0) ... body(num_tasks - 1) by turns on up to NumProcessors()
 // pthreads, the caller's among them, neighbours together. As RunTasks() with
-// WaitPolicy::Logical(), which is this.
+// WaitPolicy::Logical(), which is this. Throws std::system_error, with nothing
+// started, if there is no memory for so many stacks.
 void RunLogicalTasks(int num_tasks, const std::function<void(int)>& body);
 
 }  // namespace macrotask

@@ -1,6 +1,9 @@
 #include "macrotask/logical_task.h"
 
 #include <boost/context/protected_fixedsize_stack.hpp>
+#include <new>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "macrotask/logical_processor.h"
@@ -51,9 +54,13 @@ void LogicalTask::RunBody() {
   }
 }
 
-LogicalTask* LogicalTask::Take() {
+std::size_t LogicalTask::WantedStackSize() {
   const std::size_t wanted = WorkerPool::TheOne().stack_size();
-  const std::size_t size = wanted == 0 ? kDefaultStackSize : wanted;
+  return wanted == 0 ? kDefaultStackSize : wanted;
+}
+
+LogicalTask* LogicalTask::Take() {
+  const std::size_t size = WantedStackSize();
   {
     Parked& parked = TheParked();
     const MutexGuard guard(parked.mutex);
@@ -71,6 +78,27 @@ void LogicalTask::Give(LogicalTask* task) {
   const MutexGuard guard(parked.mutex);
   task->next = parked.first;
   parked.first = task;
+}
+
+LogicalTasks::LogicalTasks(int num_tasks) {
+  tasks_.reserve(static_cast<std::size_t>(num_tasks));
+  try {
+    for (int task = 0; task < num_tasks; ++task) {
+      tasks_.push_back(LogicalTask::Take());
+    }
+  } catch (const std::bad_alloc&) {
+    const std::size_t num_there = tasks_.size();
+    GiveAll();
+    throw std::system_error(
+        std::make_error_code(std::errc::not_enough_memory),
+        "cannot start " + std::to_string(num_tasks) + " tasks with " +
+            std::to_string(LogicalTask::WantedStackSize()) +
+            " bytes of stack each, after " + std::to_string(num_there));
+  }
+}
+
+void LogicalTasks::GiveAll() {
+  for (LogicalTask* task : tasks_) LogicalTask::Give(task);
 }
 
 }  // namespace macrotask

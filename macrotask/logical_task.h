@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <vector>
 
 #include "macrotask/fiber_annotations.h"
 #include "macrotask/task_record.h"
@@ -33,6 +34,7 @@ struct LogicalTask {
   // parked, or makes one. Give() parks it again.
   static LogicalTask* Take();
   static void Give(LogicalTask* task);
+  static std::size_t WantedStackSize();
 
   // Where it goes on; not while it runs.
   boost::context::detail::fcontext_t context = nullptr;
@@ -68,6 +70,26 @@ struct LogicalTask {
 
   LogicalTask* next = nullptr;  // in the ring of its processor, or parked
   LogicalTask* previous = nullptr;
+};
+
+// Internal: so many logical tasks, for the length of a block.
+class LogicalTasks {
+ public:
+  // Throws std::system_error, with a sentence, if there is no memory for their
+  // stacks.
+  explicit LogicalTasks(int num_tasks);
+  ~LogicalTasks() { GiveAll(); }
+  LogicalTasks(const LogicalTasks&) = delete;
+  LogicalTasks& operator=(const LogicalTasks&) = delete;
+
+  LogicalTask* operator[](int task) const {
+    return tasks_[static_cast<std::size_t>(task)];
+  }
+
+ private:
+  void GiveAll();
+
+  std::vector<LogicalTask*> tasks_;
 };
 
 }  // namespace macrotask

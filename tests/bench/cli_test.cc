@@ -1,62 +1,19 @@
 // The program as its users see it: what it prints, where, and its exit code.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/bench/program.h"
+
+namespace bench {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit_code;
-  std::string out, error;
-};
-
-std::string ReadAll(const fs::path& path) {
-  std::ifstream file(path);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
-class Cli : public testing::Test {
- protected:
-  Cli()
-      : folder_(fs::path(testing::TempDir()) /
-                ("cli_test" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~Cli() override { fs::remove_all(folder_); }
-
-  Outcome Run(const std::string& arguments, const std::string& before = "") {
-    const fs::path out = folder_ / "out", error = folder_ / "error";
-    const std::string command = before + PROGRAM " " + arguments + " >" +
-                                out.string() + " 2>" + error.string() +
-                                " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(out),
-            ReadAll(error)};
-  }
-
-  // One sentence on the standard error, nothing else, exit code 2.
-  void ExpectRejected(const std::string& arguments,
-                      const std::string& sentence) {
-    const Outcome outcome = Run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_EQ(outcome.error, "macrotask: " + sentence + "\n") << arguments;
-  }
-
-  fs::path folder_;
-};
+using Cli = ProgramTest;
 
 struct BreakdownTable {
   std::string constructs;                 // "all m^ EVWAIT"
@@ -116,9 +73,9 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitCodeTwo) {
   ExpectRejected("simulate --figure 2",
                  "unknown --figure '2': expected one of figure2, figure3, "
                  "figure7, figure8, serial");
-  ExpectRejected(
-      "simulate --wait never",
-      "unknown --wait 'never': expected one of block, hold, logical, spin");
+  ExpectRejected("simulate --wait never",
+                 "unknown --wait 'never': expected one of auto, block, hold, "
+                 "logical, spin");
   ExpectRejected("reproduce --csv x --json x",
                  "--csv and --json both write to 'x'");
   ExpectRejected("simulate --breakdown --trace x",
@@ -150,14 +107,14 @@ TEST_F(Cli, BadOptionsNameTheOption) {
 }
 
 TEST_F(Cli, RejectedRunWritesNoFile) {
-  const fs::path path = folder_ / "trajectory.csv";
+  const fs::path path = Path("trajectory.csv");
   Run("simulate --step 0.03 --output " + path.string());
   EXPECT_FALSE(fs::exists(path));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);
+  EXPECT_EQ(NumFiles(), 2);
 }
 
 TEST_F(Cli, TrajectoryHasARowForEveryGridPoint) {
-  const fs::path path = folder_ / "trajectory.csv";
+  const fs::path path = Path("trajectory.csv");
   const Outcome outcome = Run("simulate --step 0.02 --output " + path.string());
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("real-time factor"), std::string::npos);
@@ -268,7 +225,7 @@ TEST_F(Cli, HelpAndVersionExitWithZero) {
 TEST_F(Cli, MoreTasksThanTheSystemAllowsIsOneSentence) {
   if (UNDER_SANITIZER) GTEST_SKIP() << "sanitizers need the memory";
   const Outcome outcome =
-      Run("simulate --chains 200 --chain-tasks 200 --step 0.1",
+      Run("simulate --chains 200 --chain-tasks 200 --step 0.1 --wait hold",
           "ulimit -v 400000; ");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.out, "");
@@ -276,4 +233,16 @@ TEST_F(Cli, MoreTasksThanTheSystemAllowsIsOneSentence) {
       << outcome.error;
 }
 
+TEST_F(Cli, MoreStacksThanThereIsMemoryForIsOneSentence) {
+  if (UNDER_SANITIZER) GTEST_SKIP() << "sanitizers need the memory";
+  const Outcome outcome =
+      Run("simulate --chains 200 --chain-tasks 200 --step 0.1 --wait logical",
+          "ulimit -v 120000; ");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.error.find("macrotask: cannot start 200 tasks with "), 0u)
+      << outcome.error;
+}
+
 }  // namespace
+}  // namespace bench

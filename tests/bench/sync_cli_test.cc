@@ -1,34 +1,30 @@
 // macrotask sync as its users see it, with as little measuring as possible.
 
 #include <gtest/gtest.h>
-#include <stdio.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/bench/program.h"
+
+namespace bench {
 namespace {
 
-struct Outcome {
-  int exit_code;
-  std::string text;  // both outputs
-};
+class SyncCli : public ProgramTest {
+ protected:
+  struct Told {
+    int exit_code;
+    std::string text;  // both outputs
+  };
 
-Outcome RunSync(const std::string& arguments, const std::string& before = "") {
-  const std::string command =
-      // LeakSanitizer cannot walk the stacks of parked tasks.
-      "ASAN_OPTIONS=detect_leaks=0 " + before + "'" PROGRAM "' sync " +
-      arguments + " 2>&1 </dev/null";
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "popen"};
-  Outcome outcome = {0, ""};
-  char buffer[4096];
-  while (fgets(buffer, sizeof buffer, pipe) != nullptr) outcome.text += buffer;
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
+  Told RunSync(const std::string& arguments, const std::string& before = "") {
+    // LeakSanitizer cannot walk the stacks of parked tasks.
+    const Outcome outcome =
+        Run("sync " + arguments, "ASAN_OPTIONS=detect_leaks=0 " + before);
+    return {outcome.exit_code, outcome.out + outcome.error};
+  }
+};
 
 bool Has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -36,8 +32,8 @@ bool Has(const std::string& text, const std::string& part) {
 
 constexpr const char* kShort = " --repetitions 1 --tasks 2 --work 0";
 
-TEST(SyncCli, MeasuresEveryFamily) {
-  const Outcome outcome = RunSync(kShort);
+TEST_F(SyncCli, MeasuresEveryFamily) {
+  const Told outcome = RunSync(kShort);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   for (const char* row :
        {"| BARSYNC ", "| EVPOST to EVWAIT ", "| LOCKON + LOCKOFF ",
@@ -48,15 +44,15 @@ TEST(SyncCli, MeasuresEveryFamily) {
   }
 }
 
-TEST(SyncCli, MeasuresMoreTasksThanProcessors) {
-  const Outcome outcome =
+TEST_F(SyncCli, MeasuresMoreTasksThanProcessors) {
+  const Told outcome =
       RunSync("--repetitions 1 --tasks 4 --work 0 --constructs barrier,event");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(Has(outcome.text, "| BARSYNC ")) << outcome.text;
 }
 
-TEST(SyncCli, WritesJson) {
-  const Outcome outcome =
+TEST_F(SyncCli, WritesJson) {
+  const Told outcome =
       RunSync("--constructs limit --repetitions 1 --placement free --json -");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   const auto json = nlohmann::json::parse(outcome.text);
@@ -64,8 +60,8 @@ TEST(SyncCli, WritesJson) {
   EXPECT_FALSE(json["benchmarks"].empty());
 }
 
-TEST(SyncCli, LateArriverIsARowOfItsOwn) {
-  const Outcome outcome =
+TEST_F(SyncCli, LateArriverIsARowOfItsOwn) {
+  const Told outcome =
       RunSync("--constructs barrier --wait hold --skew zero,late --csv -" +
               std::string(kShort));
   EXPECT_TRUE(Has(outcome.text, "barrier,BARSYNC,hold,2,0,late,"))
@@ -74,37 +70,37 @@ TEST(SyncCli, LateArriverIsARowOfItsOwn) {
       << outcome.text;
 }
 
-TEST(SyncCli, MeasuresWhatOneProcessorCan) {
-  const Outcome outcome =
+TEST_F(SyncCli, MeasuresWhatOneProcessorCan) {
+  const Told outcome =
       RunSync("--constructs barrier,limit --wait block" + std::string(kShort),
               "taskset -c 0 ");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(Has(outcome.text, "| needs 2 processors ")) << outcome.text;
 }
 
-TEST(SyncCli, BreakEvenNeedsTwoProcessors) {
-  const Outcome outcome = RunSync("--break-even", "taskset -c 0 ");
+TEST_F(SyncCli, BreakEvenNeedsTwoProcessors) {
+  const Told outcome = RunSync("--break-even", "taskset -c 0 ");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.text,
             "macrotask: --break-even needs 2 processors: this process may use "
             "1\n");
 }
 
-TEST(SyncCli, CalibratesTheHoldTime) {
-  const Outcome outcome = RunSync("--calibrate --repetitions 2");
+TEST_F(SyncCli, CalibratesTheHoldTime) {
+  const Told outcome = RunSync("--calibrate --repetitions 2");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(Has(outcome.text, "CALL TSKTUNE('HOLDTIME', ")) << outcome.text;
 }
 
-TEST(SyncCli, CalibrationNeedsTwoProcessors) {
-  const Outcome outcome = RunSync("--calibrate", "taskset -c 0 ");
+TEST_F(SyncCli, CalibrationNeedsTwoProcessors) {
+  const Told outcome = RunSync("--calibrate", "taskset -c 0 ");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.text,
             "macrotask: --calibrate needs 2 processors: this process may use "
             "1\n");
 }
 
-TEST(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
+TEST_F(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
   for (const char* arguments :
        {"--wait never", "--wait ''", "--tasks 0", "--tasks two", "--tasks 1000",
         "--work -1", "--work x", "--skew early", "--placement here",
@@ -112,7 +108,7 @@ TEST(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
         "--constructs barrier,mutex", "--repetitions 0", "--hold-time -1",
         "--csv x --json x", "--csv /none/x", "--calibrate --break-even",
         "--calibrate --csv x", "--barrier"}) {
-    const Outcome outcome = RunSync(arguments);
+    const Told outcome = RunSync(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_TRUE(outcome.text.starts_with("macrotask: ")) << outcome.text;
     EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1)
@@ -121,3 +117,4 @@ TEST(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
 }
 
 }  // namespace
+}  // namespace bench

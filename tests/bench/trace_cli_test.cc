@@ -2,74 +2,31 @@
 // code.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "macrotask/trace_file.h"
+#include "tests/bench/program.h"
 #include "tests/bench/trace_example.h"
 
 namespace bench {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit_code;
-  std::string out, error;
-};
-
-std::string ReadAll(const fs::path& path) {
-  std::ifstream file(path);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
-class TraceCli : public testing::Test {
+class TraceCli : public ProgramTest {
  protected:
-  TraceCli()
-      : folder_(fs::path(testing::TempDir()) /
-                ("trace_cli_test" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-    macrotask::WriteTrace(ExampleTrace(), Path("run"));
-  }
-  ~TraceCli() override { fs::remove_all(folder_); }
-
-  std::string Path(const std::string& name) const { return folder_ / name; }
+  TraceCli() { macrotask::WriteTrace(ExampleTrace(), Path("run")); }
 
   // In the folder of the trace `run`.
   Outcome Run(const std::string& arguments) {
-    const std::string command = "cd " + folder_.string() +
-                                " && " PROGRAM " trace " + arguments +
-                                " >out 2>error </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(Path("out")),
-            ReadAll(Path("error"))};
+    return ProgramTest::Run("trace " + arguments);
   }
-
-  // One sentence on the standard error, nothing else, exit code 2, no file.
   void ExpectRejected(const std::string& arguments,
                       const std::string& sentence) {
-    Run("");  // creates out and error
-    const auto before = NumFiles();
-    const Outcome outcome = Run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_EQ(outcome.error, "macrotask: " + sentence + "\n") << arguments;
-    EXPECT_EQ(NumFiles(), before) << arguments;
+    ProgramTest::ExpectRejected("trace " + arguments, sentence);
   }
-
-  std::ptrdiff_t NumFiles() const {
-    return std::distance(fs::directory_iterator(folder_), {});
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(TraceCli, PrintsAllReportsButChronUnlessToldOtherwise) {
