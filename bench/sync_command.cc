@@ -72,7 +72,7 @@ void AddAxes(CLI::App* app, SyncAxes* axes) {
   AddChoice<SyncPlacement>(
       app, "--placement", &axes->placement,
       ByNames<SyncPlacement>({SyncPlacement::kPinned, SyncPlacement::kFree}),
-      "Whether tasks that can have a processor each are pinned (the default)");
+      "Whether tasks are pinned as RunTasks() does (the default)");
 }
 
 SyncResult NewResult(const SyncAxes& axes, int repetitions) {

@@ -36,7 +36,7 @@ std::string HeaderText(const SyncResult& r) {
       r.machine.processors, r.machine.kernel, r.machine.compiler,
       r.machine.flags,
       r.axes.placement == SyncPlacement::kPinned
-          ? "pinned, a processor for each task, if there are enough"
+          ? "pinned, neighbours together if there are too few processors"
           : "free, the system chooses");
   if (r.clocks) {
     text += fmt::format(

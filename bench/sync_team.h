@@ -10,7 +10,7 @@
 namespace bench {
 
 enum class SyncPlacement {
-  kPinned,  // a processor for each task if there are enough, as RunTasks() does
+  kPinned,  // as RunTasks() does
   kFree,    // wherever the system puts them
 };
 
