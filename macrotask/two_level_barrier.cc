@@ -2,6 +2,7 @@
 
 #include "macrotask/futex.h"
 #include "macrotask/processor_load.h"
+#include "macrotask/program_end.h"
 #include "macrotask/spin_then_sleep.h"
 
 // With n tasks, phase k (from 0) is complete when (k + 1) n arrivals are
@@ -52,6 +53,11 @@ TwoLevelBarrier::TwoLevelBarrier(int num_tasks, const WaitPolicy& policy,
       waited_{ObjectKind::kBarrier, number},
       num_groups_(NumProcessorLoads() + 1),
       groups_(new Group[static_cast<std::size_t>(num_groups_)]) {}
+
+TwoLevelBarrier::~TwoLevelBarrier() {
+  // Tasks may still look at them.
+  if (caller_stops_program) (void)groups_.release();
+}
 
 bool TwoLevelBarrier::IsComplete(std::uint64_t end_of_phase) const {
   return arrivals_.load(std::memory_order_seq_cst) >= end_of_phase;

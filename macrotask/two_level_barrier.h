@@ -23,6 +23,7 @@ class TwoLevelBarrier {
   // Requires: `num_tasks` >= 1. `number` is that of the Barrier.
   TwoLevelBarrier(int num_tasks, const WaitPolicy& policy,
                   std::uint32_t number);
+  ~TwoLevelBarrier();
   TwoLevelBarrier(const TwoLevelBarrier&) = delete;
   TwoLevelBarrier& operator=(const TwoLevelBarrier&) = delete;
 
@@ -52,7 +53,7 @@ class TwoLevelBarrier {
   const WaitPolicy policy_;
   const WaitedObject waited_;
   const int num_groups_;
-  const std::unique_ptr<Group[]> groups_;  // (num_groups_)
+  std::unique_ptr<Group[]> groups_;  // (num_groups_)
 };
 
 }  // namespace macrotask
