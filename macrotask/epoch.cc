@@ -9,7 +9,9 @@
 // The bit is set only under the mutex, by a CAS on a word whose epoch is not
 // past `seen`, and is cleared only by the advance that ends this epoch. That
 // advance therefore sees it, and then takes the mutex, which the sleeper gives
-// up only inside the condition variable: the broadcast finds it there.
+// up only inside the condition variable: the broadcast finds it there. The
+// exchange of AdvanceTo() is such an advance: there is no other one whose epoch
+// it could overwrite, and a bit set before it is in the word that it returns.
 //
 // An advance that saw the bit touches the object after its atomic step. A
 // sleeper therefore waits for `released_`, which that advance writes under the
@@ -29,7 +31,7 @@ std::uint64_t WordOf(std::uint64_t epoch) { return epoch << 1; }
 }  // namespace
 
 std::uint64_t Epoch::Read() const {
-  // Acquire: partner of the release in Advance() and AdvanceIf().
+  // Acquire: partner of the release in Advance(), AdvanceTo() and AdvanceIf().
   return EpochOf(word_.load(std::memory_order_acquire));
 }
 
@@ -42,6 +44,13 @@ void Epoch::Advance() {
                                       std::memory_order_relaxed)) {
   }
   if (word & kSomebodySleeps) WakeSleepers(EpochOf(word) + 1);
+}
+
+void Epoch::AdvanceTo(std::uint64_t epoch) {
+  // Release: as in Advance(). No acquire: nobody else has advanced it.
+  const std::uint64_t word =
+      word_.exchange(WordOf(epoch), std::memory_order_release);
+  if (word & kSomebodySleeps) WakeSleepers(epoch);
 }
 
 void Epoch::AdvanceIf(std::uint64_t parity) {

@@ -33,6 +33,22 @@ TEST_P(EpochTest, AdvanceIfKeepsANumberOfTheOtherParity) {
   EXPECT_EQ(epoch.Read(), 2u);
 }
 
+// Each task advances one epoch and waits for the other.
+TEST_P(EpochTest, AdvanceToWakesWhoeverWaitsForTheNextOne) {
+  constexpr std::uint64_t kNumEpochs = 500;
+  Epoch epochs[2];
+  RunTasks(
+      2,
+      [&](int task) {
+        for (std::uint64_t epoch = 1; epoch <= kNumEpochs; ++epoch) {
+          epochs[task].AdvanceTo(epoch);
+          epochs[1 - task].AwaitPast(epoch - 1, GetParam());
+        }
+      },
+      GetParam());
+  for (const Epoch& epoch : epochs) EXPECT_EQ(epoch.Read(), kNumEpochs);
+}
+
 TEST_P(EpochTest, ReleasedTaskMayDestroyIt) {
   for (int round = 0; round < 1000; ++round) {
     auto epoch = std::make_unique<Epoch>();

@@ -83,6 +83,9 @@ inline AdvanceIf(condition) {
   //     1),
   // epoch.cc: } while (!word_.compare_exchange_weak(word, next,
   //     std::memory_order_acq_rel,
+  // Of one advancer, AdvanceTo(epoch + 1) as well:
+  // epoch.cc: word_.exchange(WordOf(epoch), std::memory_order_release);
+  // epoch.cc: if (word & kSomebodySleeps) WakeSleepers(epoch);
   atomic {
     TOUCH;
     if

@@ -47,6 +47,28 @@ struct ReaderReadsWhatWasWritten
   }
 };
 
+// One task advances to one epoch after the other, two wait for them.
+struct WaitersReadWhatTheOnlyAdvancerWrote
+    : rl::test_suite<WaitersReadWhatTheOnlyAdvancerWrote, 3> {
+  static constexpr int kNumRuns = 20000;
+  static constexpr int kNumEpochs = 2;
+
+  Epoch epoch;
+  rl::var<int> written[kNumEpochs];
+
+  void thread(unsigned task) {
+    for (unsigned i = 0; i < kNumEpochs; ++i) {
+      if (task == 0) {
+        written[i](RL_INFO) = 1;
+        epoch.AdvanceTo(i + 1);
+      } else {
+        epoch.AwaitPast(i, kPolicy);
+        RL_ASSERT(written[i](RL_INFO) == 1);
+      }
+    }
+  }
+};
+
 struct ReleasedTaskDestroysIt : rl::test_suite<ReleasedTaskDestroysIt, 2> {
   static constexpr int kNumRuns = 50000;
 
@@ -128,6 +150,7 @@ int main() {
       {
           &checked::Search<WaiterReadsWhatAllWrote>,
           &checked::Search<ReaderReadsWhatWasWritten>,
+          &checked::Search<WaitersReadWhatTheOnlyAdvancerWrote>,
           &checked::Search<ReleasedTaskDestroysIt>,
           &checked::Search<ClearLookWaitMissesNothing>,
           &checked::Search<ClearerReadsWhatWasWritten>,

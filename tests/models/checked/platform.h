@@ -70,6 +70,10 @@ class Atomic {
              Where where = Where::current()) {
     atomic_.store(value, Order(Step::kStore, order, where), Info(where));
   }
+  T exchange(T value, std::memory_order order, Where where = Where::current()) {
+    return atomic_.exchange(value, Order(Step::kChange, order, where),
+                            Info(where));
+  }
   T fetch_add(T value, std::memory_order order,
               Where where = Where::current()) {
     return atomic_.fetch_add(value, Order(Step::kChange, order, where),
