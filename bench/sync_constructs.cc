@@ -15,12 +15,24 @@
 namespace bench {
 namespace {
 
+using macrotask::BarrierAlgorithm;
+using macrotask::WaitKind;
 using macrotask::WaitPolicy;
 
 class Barsync {
  public:
   Barsync(int num_tasks, WaitPolicy wait) : barrier_(num_tasks, wait) {}
   void Sync(int) { barrier_.Sync(); }
+
+ private:
+  macrotask::Barrier barrier_;
+};
+
+class MemberBarsync {
+ public:
+  MemberBarsync(int num_tasks, WaitPolicy wait, BarrierAlgorithm algorithm)
+      : barrier_(num_tasks, wait, algorithm) {}
+  void Sync(int task) { barrier_.Sync(task); }
 
  private:
   macrotask::Barrier barrier_;
@@ -80,19 +92,36 @@ auto Making(const Args&... args) {
   return [=] { return std::make_unique<Operation>(args...); };
 }
 
+// The algorithms that need to know who is who are made for tasks that hold their
+// processors.
+bool IsForMembers(int num_tasks, WaitPolicy wait) {
+  return num_tasks <= macrotask::NumProcessors() &&
+         (wait.kind == WaitKind::kSpin || wait.kind == WaitKind::kHold);
+}
+
 void AddBarriers(const SyncAxes& axes, WaitPolicy wait,
                  std::vector<Variant>* variants) {
   ForEachPoint(axes, true, [&](int num_tasks, double work, Skew skew) {
-    variants->push_back(
-        {.family = SyncFamily::kBarrier,
-         .construct = "BARSYNC",
-         .by = std::string(Name(wait.kind)),
-         .num_tasks = num_tasks,
-         .work = work,
-         .skew = skew,
-         .latency = LatencyKind::kLastInLastOut,
-         .run = RunOn(MakeTaskTeam(num_tasks, wait, axes.placement),
-                      Making<BarrierOperation<Barsync>>(num_tasks, wait))});
+    const Team team = MakeTaskTeam(num_tasks, wait, axes.placement);
+    const Variant anonymous = {
+        .family = SyncFamily::kBarrier,
+        .construct = "BARSYNC",
+        .by = std::string(Name(wait.kind)),
+        .num_tasks = num_tasks,
+        .work = work,
+        .skew = skew,
+        .latency = LatencyKind::kLastInLastOut,
+        .run = RunOn(team, Making<BarrierOperation<Barsync>>(num_tasks, wait))};
+    variants->push_back(anonymous);
+    if (!IsForMembers(num_tasks, wait)) return;
+    for (const auto algorithm :
+         {BarrierAlgorithm::kCounter, BarrierAlgorithm::kDissemination}) {
+      Variant variant = anonymous;
+      variant.construct = "BARSYNC, " + std::string(Name(algorithm));
+      variant.run = RunOn(team, Making<BarrierOperation<MemberBarsync>>(
+                                    num_tasks, wait, algorithm));
+      variants->push_back(variant);
+    }
   });
 }
 

@@ -46,8 +46,8 @@ class Figure2 final : public TaskStructure {
     macrotask::Event& other =
         accelerations_posted_[1 - static_cast<int>(phase)];
 
-    task.Ocd(phase);     // OCD_k
-    all_chains_.Sync();  // BARSYNC(m^)
+    task.Ocd(phase);      // OCD_k
+    all_chains_.Sync(k);  // BARSYNC(m^)
     if (k == 0) {
       // All tasks have come from their wait for the evaluation before.
       other.Clear();    // EVCLEAR

@@ -23,13 +23,13 @@ class Figure3 final : public TaskStructure {
   Figure3(int chain_tasks, macrotask::WaitPolicy wait)
       : all_chains_(chain_tasks, wait) {}
 
-  void Run(int /*i*/, int /*k*/, BlockTask& task) override {
+  void Run(int /*i*/, int k, BlockTask& task) override {
     for (int block = 0; block < task.num_blocks(); ++block) {
       task.Predict();  // CS
-      Evaluate(Phase::kPredicted, task);
+      Evaluate(k, Phase::kPredicted, task);
 
       task.Correct();  // CS
-      Evaluate(Phase::kCorrected, task);
+      Evaluate(k, Phase::kCorrected, task);
 
       task.ShiftBlocks();
       if (task.Ended()) return;
@@ -37,11 +37,11 @@ class Figure3 final : public TaskStructure {
   }
 
  private:
-  void Evaluate(Phase phase, BlockTask& task) {
-    task.Ocd(phase);     // OCD_k
-    all_chains_.Sync();  // BARSYNC(m^)
-    task.Rma(phase);     // RMA
-    task.Ccd(phase);     // CCD_k
+  void Evaluate(int k, Phase phase, BlockTask& task) {
+    task.Ocd(phase);      // OCD_k
+    all_chains_.Sync(k);  // BARSYNC(m^)
+    task.Rma(phase);      // RMA
+    task.Ccd(phase);      // CCD_k
   }
 
   macrotask::Barrier all_chains_;

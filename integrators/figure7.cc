@@ -27,13 +27,13 @@ class Figure7 final : public TaskStructure {
     for (int block = 0; block < task.num_blocks(); ++block) {
       task.Predict();  // PE_i
       Evaluate(Phase::kPredicted, task);
-      all_points_.Sync();  // BARSYNC(p^)
+      all_points_.Sync(i);  // BARSYNC(p^)
       // All tasks have come from their wait for the shift before.
       if (i == 0) blocks_shifted_.Clear();  // EVCLEAR
 
       task.Correct();  // CE_i
       Evaluate(Phase::kCorrected, task);
-      all_points_.Sync();  // BARSYNC(p^)
+      all_points_.Sync(i);  // BARSYNC(p^)
 
       if (i == 0) {
         task.ShiftBlocks();      // shift blocks

@@ -51,19 +51,19 @@ class Figure8 final : public TaskStructure {
     for (int block = 0; block < task.num_blocks(); ++block) {
       task.Predict();               // CS (predict)
       task.Ocd(Phase::kPredicted);  // OCD
-      chains.Sync();                // BARSYNC(m^)
+      chains.Sync(k);               // BARSYNC(m^)
       task.Rma(Phase::kPredicted);  // RMA
       task.Ccd(Phase::kPredicted);  // CCD
-      points.Sync();                // BARSYNC(p^)
+      points.Sync(i);               // BARSYNC(p^)
       // All tasks of the chain have come from their wait for the shift before.
       if (i == 0) shifted.Clear();  // EVCLEAR
 
       task.Correct();               // CS (correct)
       task.Ocd(Phase::kCorrected);  // OCD
-      chains.Sync();                // BARSYNC(m^)
+      chains.Sync(k);               // BARSYNC(m^)
       task.Rma(Phase::kCorrected);  // RMA
       task.Ccd(Phase::kCorrected);  // CCD
-      points.Sync();                // BARSYNC(p^)
+      points.Sync(i);               // BARSYNC(p^)
 
       if (i == 0) {
         task.ShiftBlocks();  // shift

@@ -66,18 +66,48 @@ int BlockingBarrier::num_waiting() const {
                           num_tasks_);
 }
 
-Barrier::Barrier(int num_tasks, WaitPolicy policy)
+// Sync() and Sync(member) live side by side, each with a state that the other
+// one does not touch: its own phases, one after the other. That is enough. The
+// proofs of each algorithm ask that a task comes to its next phase only after
+// the one before is complete, and that those of one phase are all tasks, once
+// each. A phase of the other kind in between only makes a task come later, and
+// as all of them come through it, what they know of each other's writes is no
+// less.
+Barrier::Barrier(int num_tasks, WaitPolicy policy, BarrierAlgorithm algorithm)
     : num_tasks_(CheckNumTasks(num_tasks)),
       policy_(policy),
       number_(NextNumber(ObjectKind::kBarrier)) {
-  if (policy.kind == WaitKind::kBlock) {
-    algorithm_.emplace<BlockingBarrier>(num_tasks, number_);
-  } else if (policy.kind == WaitKind::kLogical) {
-    algorithm_ = std::make_unique<LogicalBarrier>(num_tasks, number_);
-  } else if (policy.kind != WaitKind::kSpin && num_tasks > NumProcessors()) {
-    algorithm_.emplace<TwoLevelBarrier>(num_tasks, policy, number_);
+  ChooseAlgorithm(algorithm);
+  ChooseMemberAlgorithm(algorithm);
+}
+
+void Barrier::ChooseAlgorithm(BarrierAlgorithm algorithm) {
+  if (algorithm == BarrierAlgorithm::kCounter) {
+    algorithm_.emplace<CountingBarrier>(num_tasks_, policy_, number_);
+  } else if (policy_.kind == WaitKind::kBlock) {
+    algorithm_.emplace<BlockingBarrier>(num_tasks_, number_);
+  } else if (policy_.kind == WaitKind::kLogical) {
+    algorithm_ = std::make_unique<LogicalBarrier>(num_tasks_, number_);
+  } else if (policy_.kind != WaitKind::kSpin && num_tasks_ > NumProcessors()) {
+    algorithm_.emplace<TwoLevelBarrier>(num_tasks_, policy_, number_);
   } else {
-    algorithm_.emplace<CountingBarrier>(num_tasks, policy, number_);
+    algorithm_.emplace<CountingBarrier>(num_tasks_, policy_, number_);
+  }
+}
+
+void Barrier::ChooseMemberAlgorithm(BarrierAlgorithm algorithm) {
+  if (algorithm == BarrierAlgorithm::kAuto) {
+    // Where Sync() does something for tasks that share processors, or is what
+    // the policy promises, it is as good for members.
+    if (num_tasks_ > NumProcessors() ||
+        !std::holds_alternative<CountingBarrier>(algorithm_)) {
+      return;
+    }
+    algorithm = ChooseBarrierAlgorithm(num_tasks_);
+  }
+  if (algorithm == BarrierAlgorithm::kDissemination) {
+    member_algorithm_.emplace<DisseminationBarrier>(num_tasks_, policy_,
+                                                    number_);
   }
 }
 
@@ -91,6 +121,14 @@ inline void Barrier::SyncUntraced() {
     two_level->Sync();
   } else {
     std::get<BlockingBarrier>(algorithm_).Sync();
+  }
+}
+
+inline void Barrier::SyncUntraced(int member) {
+  if (auto* rounds = std::get_if<DisseminationBarrier>(&member_algorithm_)) {
+    rounds->Sync(member);
+  } else {
+    SyncUntraced();
   }
 }
 
@@ -108,7 +146,28 @@ void Barrier::Sync() {
                [this] { SyncUntraced(); });
 }
 
+inline void Barrier::CheckMember(int member) const {
+  if (member >= 0 && member < num_tasks_) [[likely]]
+    return;
+  throw std::out_of_range(
+      "barrier " + std::to_string(number_) + " has members 0 to " +
+      std::to_string(num_tasks_ - 1) + ", not " + std::to_string(member));
+}
+
+void Barrier::Sync(int member) {
+  CheckMember(member);
+  RecordAround(TraceClass::kEvents, TraceAction::kBarrierSync,
+               TraceAction::kBarrierSyncEnd,
+               TraceData(number_, static_cast<std::uint64_t>(num_tasks_)),
+               [this, member] { SyncUntraced(member); });
+}
+
 int Barrier::num_waiting() const {
+  if (auto* rounds = std::get_if<DisseminationBarrier>(&member_algorithm_)) {
+    // In a phase of the other kind nobody waits here.
+    const int num_members = rounds->num_waiting();
+    if (num_members > 0) return num_members;
+  }
   if (auto* counting = std::get_if<CountingBarrier>(&algorithm_)) {
     return counting->num_waiting();
   }

@@ -86,6 +86,23 @@ TEST_P(DeadlockTest, AllWaitAtABarrierForOneMore) {
       Report(All(num_tasks(), "waiting for barrier 1")));
 }
 
+// The first or the last member, which a tree does not treat alike.
+TEST_P(DeadlockTest, AMemberOfABarrierIsMissing) {
+  for (BarrierAlgorithm algorithm : kAllBarrierAlgorithms) {
+    for (int missing : {0, num_tasks()}) {
+      ExpectDeadlock(
+          [&] {
+            Barrier barrier(num_tasks() + 1, policy(), algorithm);
+            RunTasks(
+                num_tasks(),
+                [&](int task) { barrier.Sync(missing == 0 ? task + 1 : task); },
+                policy());
+          },
+          Report(All(num_tasks(), "waiting for barrier 1")));
+    }
+  }
+}
+
 // The earlier phases must not count for the last.
 TEST_P(DeadlockTest, OneTaskComesOnceTooOften) {
   if (num_tasks() == 1) return;  // holds nobody

@@ -4,11 +4,14 @@
 #include <sched.h>
 
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "macrotask/barrier_algorithm.h"
 #include "macrotask/cache_line.h"
 #include "macrotask/logical_wait.h"
 #include "macrotask/task.h"
@@ -19,6 +22,9 @@ namespace macrotask {
 inline const WaitPolicy kAllPolicies[] = {
     WaitPolicy::Block(), WaitPolicy::Spin(), WaitPolicy::Hold(),
     WaitPolicy::Logical()};
+inline constexpr BarrierAlgorithm kAllBarrierAlgorithms[] = {
+    BarrierAlgorithm::kAuto, BarrierAlgorithm::kCounter,
+    BarrierAlgorithm::kDissemination};
 inline constexpr int kTaskCounts[] = {1, 2, 3, 4, 7, 16};
 
 // How a failing test shows its parameter.
@@ -99,6 +105,47 @@ int CountPhaseErrors(int num_tasks, int num_phases, const Sync& sync,
       },
       wait);
   return num_errors;
+}
+
+// What `num_tasks` tasks have in their slots after `num_rounds` rounds, in each
+// of which each of them computes a new value from all slots: one stale slot in
+// any round changes every later one. sync(task) comes after the reading and
+// after the writing. The slots are not atomic.
+template <typename Sync>
+std::vector<std::uint64_t> MixSlots(int num_tasks, int num_rounds,
+                                    const Sync& sync, WaitPolicy wait) {
+  const auto n = static_cast<std::size_t>(num_tasks);
+  std::vector<std::uint64_t> old_slots(n, 1);
+  std::vector<std::uint64_t> new_slots(n, 0);
+  RunTasks(
+      num_tasks,
+      [&](int task) {
+        const auto own = static_cast<std::size_t>(task);
+        for (int round = 0; round < num_rounds; ++round) {
+          std::uint64_t sum = own;
+          for (std::uint64_t slot : old_slots) sum = 3 * sum + slot;
+          new_slots[own] = sum;
+          sync(task);
+          old_slots[own] = new_slots[own];
+          sync(task);
+        }
+      },
+      wait);
+  return old_slots;
+}
+
+// The same by one task alone.
+inline std::vector<std::uint64_t> MixedSlots(int num_tasks, int num_rounds) {
+  std::vector<std::uint64_t> slots(static_cast<std::size_t>(num_tasks), 1);
+  for (int round = 0; round < num_rounds; ++round) {
+    std::vector<std::uint64_t> next(slots.size());
+    for (std::size_t task = 0; task < next.size(); ++task) {
+      next[task] = task;
+      for (std::uint64_t slot : slots) next[task] = 3 * next[task] + slot;
+    }
+    slots = next;
+  }
+  return slots;
 }
 
 }  // namespace macrotask

@@ -59,16 +59,23 @@ void Expect(bool is_true, const char* what) {
   std::_Exit(1);
 }
 
+BarrierAlgorithm AnyAlgorithm() {
+  constexpr BarrierAlgorithm kAlgorithms[] = {BarrierAlgorithm::kAuto,
+                                              BarrierAlgorithm::kDissemination};
+  return kAlgorithms[Below(std::size(kAlgorithms))];
+}
+
 // The slots are not atomic: AddressSanitizer and ThreadSanitizer look on.
 void Barriers(const Setting& setting) {
-  Barrier barrier(setting.num_tasks, setting.policy);
+  Barrier barrier(setting.num_tasks, setting.policy, AnyAlgorithm());
+  const bool are_members = Below(3) > 0;
   std::vector<CacheAligned<int>> phase_of(Index(setting.num_tasks));
   RunTasks(
       setting.num_tasks,
       [&](int task) {
         for (int phase = 1; phase <= setting.num_rounds; ++phase) {
           *phase_of[Index(task)] = phase;
-          barrier.Sync();
+          are_members ? barrier.Sync(task) : barrier.Sync();
           for (const auto& other : phase_of) {
             Expect(*other == phase, "a barrier has let a task go too soon");
           }

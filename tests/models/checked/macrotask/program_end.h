@@ -6,6 +6,8 @@
 
 namespace macrotask {
 
+inline constexpr bool caller_stops_program = false;
+
 void StopProgram(const std::string& text, int exit_code);
 
 }  // namespace macrotask
