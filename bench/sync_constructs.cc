@@ -115,7 +115,8 @@ void AddBarriers(const SyncAxes& axes, WaitPolicy wait,
     variants->push_back(anonymous);
     if (!IsForMembers(num_tasks, wait)) return;
     for (const auto algorithm :
-         {BarrierAlgorithm::kCounter, BarrierAlgorithm::kDissemination}) {
+         {BarrierAlgorithm::kCounter, BarrierAlgorithm::kDissemination,
+          BarrierAlgorithm::kTree}) {
       Variant variant = anonymous;
       variant.construct = "BARSYNC, " + std::string(Name(algorithm));
       variant.run = RunOn(team, Making<BarrierOperation<MemberBarsync>>(

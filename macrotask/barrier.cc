@@ -108,6 +108,8 @@ void Barrier::ChooseMemberAlgorithm(BarrierAlgorithm algorithm) {
   if (algorithm == BarrierAlgorithm::kDissemination) {
     member_algorithm_.emplace<DisseminationBarrier>(num_tasks_, policy_,
                                                     number_);
+  } else if (algorithm == BarrierAlgorithm::kTree) {
+    member_algorithm_.emplace<TreeBarrier>(num_tasks_, policy_, number_);
   }
 }
 
@@ -127,6 +129,8 @@ inline void Barrier::SyncUntraced() {
 inline void Barrier::SyncUntraced(int member) {
   if (auto* rounds = std::get_if<DisseminationBarrier>(&member_algorithm_)) {
     rounds->Sync(member);
+  } else if (auto* tree = std::get_if<TreeBarrier>(&member_algorithm_)) {
+    tree->Sync(member);
   } else {
     SyncUntraced();
   }
@@ -163,11 +167,14 @@ void Barrier::Sync(int member) {
 }
 
 int Barrier::num_waiting() const {
+  // In a phase of the other kind nobody waits among members.
+  int num_members = 0;
   if (auto* rounds = std::get_if<DisseminationBarrier>(&member_algorithm_)) {
-    // In a phase of the other kind nobody waits here.
-    const int num_members = rounds->num_waiting();
-    if (num_members > 0) return num_members;
+    num_members = rounds->num_waiting();
+  } else if (auto* tree = std::get_if<TreeBarrier>(&member_algorithm_)) {
+    num_members = tree->num_waiting();
   }
+  if (num_members > 0) return num_members;
   if (auto* counting = std::get_if<CountingBarrier>(&algorithm_)) {
     return counting->num_waiting();
   }

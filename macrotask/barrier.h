@@ -10,6 +10,7 @@
 #include "macrotask/barrier_algorithm.h"
 #include "macrotask/counting_barrier.h"
 #include "macrotask/dissemination_barrier.h"
+#include "macrotask/tree_barrier.h"
 #include "macrotask/two_level_barrier.h"
 #include "macrotask/wait_policy.h"
 #include "macrotask/waited_object.h"
@@ -57,7 +58,7 @@ class BlockingBarrier {
 // WaitPolicy::Logical() one line a processor (bench row "BARSYNC").
 // Sync(member) costs the same for few tasks, and where they wait for processors;
 // else about 2 log2 num_tasks transfers of a cache line in place of num_tasks
-// (bench row "BARSYNC, dissemination").
+// (bench rows "BARSYNC, dissemination" and "BARSYNC, tree").
 //
 //   Barrier barrier(num_tasks);
 //   RunTasks(num_tasks, [&](int task) {
@@ -101,7 +102,8 @@ class Barrier {
       std::variant<std::monostate, BlockingBarrier, CountingBarrier,
                    TwoLevelBarrier, std::unique_ptr<LogicalBarrier>>;
   // Of Sync(member); none: that of Sync().
-  using MemberAlgorithm = std::variant<std::monostate, DisseminationBarrier>;
+  using MemberAlgorithm =
+      std::variant<std::monostate, DisseminationBarrier, TreeBarrier>;
 
   void ChooseAlgorithm(BarrierAlgorithm algorithm);
   void ChooseMemberAlgorithm(BarrierAlgorithm algorithm);

@@ -6,14 +6,15 @@
 namespace macrotask {
 
 // How the members of a barrier learn that all have arrived. One file each:
-// counting_barrier.cc, dissemination_barrier.cc.
+// counting_barrier.cc, dissemination_barrier.cc, tree_barrier.cc.
 enum class BarrierAlgorithm {
   kAuto,           // what ChooseBarrierAlgorithm() says, where it may choose
   kCounter,        // all count on one line, which is the release as well
   kDissemination,  // everybody tells the one 1, 2, 4, ... further on
+  kTree,           // everybody tells its parent, and the root tells all
 };
 
-// Returns "auto", "counter" or "dissemination".
+// Returns "auto", "counter", "dissemination" or "tree".
 std::string_view Name(BarrierAlgorithm algorithm);
 
 // Returns the algorithm that Name() calls `name`, or nothing if there is none.

@@ -133,6 +133,7 @@ TEST(BarrierAlgorithmTest, OneIsChosenForEveryNumberOfTasks) {
   EXPECT_EQ(ChooseBarrierAlgorithm(6), BarrierAlgorithm::kCounter);
   EXPECT_EQ(ChooseBarrierAlgorithm(7), BarrierAlgorithm::kDissemination);
   EXPECT_EQ(ChooseBarrierAlgorithm(32), BarrierAlgorithm::kDissemination);
+  EXPECT_EQ(ChooseBarrierAlgorithm(33), BarrierAlgorithm::kTree);
 }
 
 }  // namespace

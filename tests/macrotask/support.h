@@ -24,7 +24,7 @@ inline const WaitPolicy kAllPolicies[] = {
     WaitPolicy::Logical()};
 inline constexpr BarrierAlgorithm kAllBarrierAlgorithms[] = {
     BarrierAlgorithm::kAuto, BarrierAlgorithm::kCounter,
-    BarrierAlgorithm::kDissemination};
+    BarrierAlgorithm::kDissemination, BarrierAlgorithm::kTree};
 inline constexpr int kTaskCounts[] = {1, 2, 3, 4, 7, 16};
 
 // How a failing test shows its parameter.

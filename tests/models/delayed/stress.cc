@@ -61,7 +61,8 @@ void Expect(bool is_true, const char* what) {
 
 BarrierAlgorithm AnyAlgorithm() {
   constexpr BarrierAlgorithm kAlgorithms[] = {BarrierAlgorithm::kAuto,
-                                              BarrierAlgorithm::kDissemination};
+                                              BarrierAlgorithm::kDissemination,
+                                              BarrierAlgorithm::kTree};
   return kAlgorithms[Below(std::size(kAlgorithms))];
 }
 
