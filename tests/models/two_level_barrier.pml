@@ -19,7 +19,7 @@
 // proves NUM_TASKS=3 GROUP_SIZE=2 NUM_UNPLACED=1 NUM_PHASES=2
 // proves NUM_TASKS=4 GROUP_SIZE=2 NUM_PHASES=1 MAX_STRAY_WAKES=0
 // finds BUG=COUNTED_ONCE NUM_TASKS=3 GROUP_SIZE=2 NUM_PHASES=2
-// finds BUG=MARK_IS_BOOL NUM_TASKS=3 GROUP_SIZE=2 NUM_PHASES=2 MAX_STRAY_WAKES=0
+// finds BUG=BOOL_MARK NUM_TASKS=3 GROUP_SIZE=2 NUM_PHASES=2 MAX_STRAY_WAKES=0
 // finds BUG=ERASE_AFTER_ASKING NUM_TASKS=3 GROUP_SIZE=2 NUM_PHASES=2
 // finds BUG=ERASE_NOTHING NUM_TASKS=2 GROUP_SIZE=1 NUM_PHASES=2
 // finds BUG=WAKE_NOBODY NUM_TASKS=3 GROUP_SIZE=2 NUM_PHASES=2
@@ -33,7 +33,7 @@
 // A comment "source: text" says which text of macrotask/source the line models.
 
 #define COUNTED_ONCE 1
-#define MARK_IS_BOOL 2
+#define BOOL_MARK 2
 #define ERASE_AFTER_ASKING 3
 #define ERASE_NOTHING 4
 #define WAKE_NOBODY 5
@@ -79,7 +79,7 @@ byte num_knowing[NUM_GROUPS];
 
 #define BIT_OF(task) (1 << (task))
 
-#if BUG == MARK_IS_BOOL
+#if BUG == BOOL_MARK
 #define MARK 1
 #else
 #define MARK end_of_phase
@@ -306,7 +306,7 @@ inline Sync(task) {
      :: else
      fi
   fi;
-#if BUG == MARK_IS_BOOL
+#if BUG == BOOL_MARK
   if
   :: watches -> watched[group] = 0
   :: else

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <new>
+#include <utility>
 
 // Relacy keeps the heap of the program under check, by inline replacements of
 // operator new and delete. The one with a size it forgets; and libstdc++ sees
@@ -14,6 +15,26 @@ void operator delete(void* memory, std::size_t) noexcept {
 [[gnu::used]] static void (*const relacys_delete)(void*) = &::operator delete;
 
 namespace macrotask::checked {
+namespace {
+
+// Those of the same name are numbered, from 1 in the order of the source.
+std::string NameOf(const Weakening& weakening, const Weakenings& weakenings) {
+  const std::string name = ToString(weakening);
+  int num_of_that_name = 0, number = 1;
+  for (std::size_t i = 0; i < weakenings.size; ++i) {
+    const Weakening& other = weakenings.all[i];
+    if (ToString(other) != name) continue;
+    ++num_of_that_name;
+    const auto where = std::pair(other.where.line(), other.where.column());
+    if (where < std::pair(weakening.where.line(), weakening.where.column())) {
+      ++number;
+    }
+  }
+  if (num_of_that_name == 1) return name;
+  return name + " (" + std::to_string(number) + ")";
+}
+
+}  // namespace
 
 int Check(std::initializer_list<std::function<std::string()>> programs,
           const std::vector<std::string>& survivors) {
@@ -31,7 +52,7 @@ int Check(std::initializer_list<std::function<std::string()>> programs,
     for (const auto& program : programs) {
       if (failure.empty()) failure = program();
     }
-    const std::string name = ToString(*in_force);
+    const std::string name = NameOf(*in_force, weakenings);
     const bool may_survive =
         std::find(survivors.begin(), survivors.end(), name) != survivors.end();
     const bool is_wrong = failure.empty() != may_survive;

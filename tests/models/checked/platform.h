@@ -87,9 +87,10 @@ class Atomic {
   bool compare_exchange_weak(T& expected, T value, std::memory_order order,
                              std::memory_order failure,
                              Where where = Where::current()) {
-    return atomic_.compare_exchange_weak(
-        expected, value, Order(Step::kChange, order, where), Info(where),
-        Order(Step::kFailure, failure, where), Info(where));
+    const Orders orders = OrdersOf(order, failure, where);
+    return atomic_.compare_exchange_weak(expected, value, orders.of_change,
+                                         Info(where), orders.of_failure,
+                                         Info(where));
   }
   bool compare_exchange_weak(T& expected, T value, std::memory_order order,
                              Where where = Where::current()) {
@@ -99,9 +100,10 @@ class Atomic {
   bool compare_exchange_strong(T& expected, T value, std::memory_order order,
                                std::memory_order failure,
                                Where where = Where::current()) {
-    return atomic_.compare_exchange_strong(
-        expected, value, Order(Step::kChange, order, where), Info(where),
-        Order(Step::kFailure, failure, where), Info(where));
+    const Orders orders = OrdersOf(order, failure, where);
+    return atomic_.compare_exchange_strong(expected, value, orders.of_change,
+                                           Info(where), orders.of_failure,
+                                           Info(where));
   }
   bool compare_exchange_strong(
       T& expected, T value, std::memory_order order = std::memory_order_seq_cst,
@@ -113,6 +115,20 @@ class Atomic {
  private:
   static rl::debug_info Info(const Where& where) {
     return {where.function_name(), where.file_name(), where.line()};
+  }
+
+  struct Orders {
+    rl::memory_order of_change;
+    rl::memory_order of_failure;
+  };
+  // Relacy knows no failure that is stronger than the change, and would loop.
+  static Orders OrdersOf(std::memory_order change, std::memory_order failure,
+                         const Where& where) {
+    const Orders orders = {Order(Step::kChange, change, where),
+                           Order(Step::kFailure, failure, where)};
+    const bool is_stronger = orders.of_change != rl::mo_seq_cst &&
+                             orders.of_failure == rl::mo_seq_cst;
+    return is_stronger ? Orders{orders.of_change, rl::mo_acquire} : orders;
   }
 
   rl::atomic<T> atomic_;

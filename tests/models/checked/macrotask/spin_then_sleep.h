@@ -8,16 +8,23 @@
 
 namespace macrotask {
 
-template <typename Done, typename Sleep>
+template <typename Done, typename Sleep, typename Crowded>
 void SpinThenSleep(const WaitPolicy&, const WaitedObject&, const Done& done,
-                   const Sleep& sleep) {
+                   const Sleep& sleep, const Crowded& is_crowded) {
   if (done()) return;
   const unsigned most_looks = rl::rand(3);  // 2: no end to it
   for (unsigned looks = 0; looks < most_looks || most_looks == 2; ++looks) {
+    if (is_crowded()) break;
     if (done()) return;
     rl::yield(1, RL_INFO);
   }
   sleep();
+}
+
+template <typename Done, typename Sleep>
+void SpinThenSleep(const WaitPolicy& policy, const WaitedObject& what,
+                   const Done& done, const Sleep& sleep) {
+  SpinThenSleep(policy, what, done, sleep, [] { return false; });
 }
 
 }  // namespace macrotask
