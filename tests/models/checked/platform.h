@@ -79,6 +79,10 @@ class Atomic {
     return atomic_.fetch_add(value, Order(Step::kChange, order, where),
                              Info(where));
   }
+  T fetch_or(T value, std::memory_order order, Where where = Where::current()) {
+    return atomic_.fetch_or(value, Order(Step::kChange, order, where),
+                            Info(where));
+  }
   T fetch_and(T value, std::memory_order order,
               Where where = Where::current()) {
     return atomic_.fetch_and(value, Order(Step::kChange, order, where),
