@@ -135,6 +135,10 @@ class Atomic : public std::atomic<T> {
     Delay();
     return Base::fetch_and(value, order);
   }
+  T fetch_or(T value, std::memory_order order = kSeqCst) noexcept {
+    Delay();
+    return Base::fetch_or(value, order);
+  }
 };
 
 }  // namespace macrotask::delayed
@@ -153,3 +157,4 @@ using delayed_atomic = macrotask::delayed::Atomic<T>;
   (macrotask::delayed::Delay(), pthread_cond_wait(condition, mutex))
 #define pthread_cond_broadcast(condition) \
   (macrotask::delayed::Delay(), pthread_cond_broadcast(condition))
+#define syscall(...) (macrotask::delayed::Delay(), syscall(__VA_ARGS__))

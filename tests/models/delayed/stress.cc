@@ -1,6 +1,6 @@
 // stress <seconds> <patience in seconds> [seed]
 //
-// Every construct, every policy, random numbers of tasks, with random delays
+// Every construct, every policy, random numbers of tasks and processors, with random delays
 // between the steps of the library (delays.h). Exits with 1 if a task sees what
 // it must not see, or if a program takes longer than the patience; with 3,
 // which is the library's, if that finds a deadlock. The seed fixes what is
@@ -23,6 +23,7 @@
 #include "macrotask/epoch.h"
 #include "macrotask/event.h"
 #include "macrotask/lock.h"
+#include "macrotask/placement.h"
 #include "macrotask/task.h"
 #include "macrotask/wait_policy.h"
 
@@ -41,12 +42,14 @@ struct Setting {
 };
 
 WaitPolicy AnyPolicy() {
-  switch (Below(4)) {
+  switch (Below(5)) {
     case 0:
       return WaitPolicy::Block();
     case 1:
       return WaitPolicy::Spin();
     case 2:
+      return WaitPolicy::Logical();
+    case 3:
       return WaitPolicy::Hold(std::chrono::microseconds(Below(50)));
     default:
       return WaitPolicy::Hold();
@@ -209,6 +212,8 @@ int Main(int argc, char** argv) {
   for (; std::chrono::steady_clock::now() < end; ++num_programs) {
     const auto num_tasks = 1 + static_cast<int>(Below(6));
     const auto num_rounds = 1 + static_cast<int>(Below(30));
+    // Seldom one for each task: barriers then have two levels.
+    SetMaxProcessors(1 + static_cast<int>(Below(4)));
     alarm(patience);
     kPrograms[Below(std::size(kPrograms))](
         {num_tasks, num_rounds, AnyPolicy()});
