@@ -50,8 +50,8 @@ int main() {
           // Published by the arrival that follows. One who misses it wakes the
           // sleepers once too often.
           "Sync() store seq_cst -> release (1)",
-          // Changes are of the newest value whatever their order. Whoever counts
-          // itself after this one has seen the arrivals that it has seen.
+          // A change is of the newest value whatever its order. Whoever counts
+          // itself after this one sees the arrivals that it has seen.
           "WakeSleepers() change seq_cst -> acq_rel",
           "SleepUntil() change seq_cst -> acq_rel (2)",
           // To miss the number is to look again.

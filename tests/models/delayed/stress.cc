@@ -1,10 +1,10 @@
 // stress <seconds> <patience in seconds> [seed]
 //
-// Every construct, every policy, random numbers of tasks and processors, with random delays
-// between the steps of the library (delays.h). Exits with 1 if a task sees what
-// it must not see, or if a program takes longer than the patience; with 3,
-// which is the library's, if that finds a deadlock. The seed fixes what is
-// done, not how the tasks happen to run.
+// Every construct, every policy, random numbers of tasks and processors, with
+// random delays between the steps of the library (delays.h). Exits with 1 if a
+// task sees what it must not see, or if a program takes longer than the
+// patience; with 3, which is the library's, if that finds a deadlock. The seed
+// fixes what is done, not how the tasks happen to run.
 
 #include <signal.h>
 #include <unistd.h>

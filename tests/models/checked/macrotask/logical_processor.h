@@ -30,8 +30,8 @@ class LogicalProcessor {
               const WaitedObject&) {
     end_of_wait_ = end_of_phase;
   }
-  // The end of the phase for which the task that has just arrived waits; 0 if it
-  // does not.
+  // The end of the phase for which the task that has just arrived waits; 0 if
+  // it does not.
   std::uint64_t TakeWait() { return std::exchange(end_of_wait_, 0); }
 
  private:
