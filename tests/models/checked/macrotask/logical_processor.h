@@ -1,6 +1,7 @@
 #pragma once
 
-// In place of macrotask/logical_processor.h: a task of relacy is a processor.
+// In place of macrotask/logical_processor.h and of logical_slot.h, which it
+// includes: a task of relacy is a processor.
 // Its tasks have no stacks: one that waits at a barrier is kept in a list, and
 // the program under check gives it its turns.
 
@@ -13,11 +14,14 @@ namespace macrotask {
 
 class LogicalBarrier;
 
+class LogicalSlot {
+ public:
+  static constexpr int kMost = 3;
+  static constexpr int kNone = -1;
+};
+
 class LogicalProcessor {
  public:
-  static constexpr int kMostSlots = 3;
-  static constexpr int kNoSlot = -1;
-
   explicit LogicalProcessor(int slot) : slot_(slot) {}
 
   int slot() const { return slot_; }
