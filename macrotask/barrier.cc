@@ -11,6 +11,7 @@
 #include "macrotask/published_wait.h"
 #include "macrotask/spin_then_sleep.h"
 #include "macrotask/trace_point.h"
+#include "macrotask/undecided_barrier.h"
 
 namespace macrotask {
 namespace {
@@ -88,7 +89,10 @@ void Barrier::ChooseAlgorithm(BarrierAlgorithm algorithm) {
     algorithm_.emplace<BlockingBarrier>(num_tasks_, number_);
   } else if (policy_.kind == WaitKind::kLogical) {
     algorithm_ = std::make_unique<LogicalBarrier>(num_tasks_, number_);
-  } else if (policy_.kind != WaitKind::kSpin && num_tasks_ > NumProcessors()) {
+  } else if (policy_.kind == WaitKind::kAuto && num_tasks_ > NumProcessors()) {
+    algorithm_ =
+        std::make_unique<UndecidedBarrier>(num_tasks_, policy_, number_);
+  } else if (policy_.kind == WaitKind::kHold && num_tasks_ > NumProcessors()) {
     algorithm_.emplace<TwoLevelBarrier>(num_tasks_, policy_, number_);
   } else {
     algorithm_.emplace<CountingBarrier>(num_tasks_, policy_, number_);
@@ -119,6 +123,9 @@ inline void Barrier::SyncUntraced() {
   } else if (auto* logical =
                  std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
     (*logical)->Sync();
+  } else if (auto* undecided =
+                 std::get_if<std::unique_ptr<UndecidedBarrier>>(&algorithm_)) {
+    (*undecided)->Sync();
   } else if (auto* two_level = std::get_if<TwoLevelBarrier>(&algorithm_)) {
     two_level->Sync();
   } else {
@@ -137,10 +144,15 @@ inline void Barrier::SyncUntraced(int member) {
 }
 
 Barrier::~Barrier() {
-  using Logical = std::unique_ptr<LogicalBarrier>;
-  auto* const logical = std::get_if<Logical>(&algorithm_);
+  if (!caller_stops_program) return;
   // Tasks may still look at it.
-  if (caller_stops_program && logical != nullptr) (void)logical->release();
+  if (auto* logical =
+          std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
+    (void)logical->release();
+  } else if (auto* undecided =
+                 std::get_if<std::unique_ptr<UndecidedBarrier>>(&algorithm_)) {
+    (void)undecided->release();
+  }
 }
 
 void Barrier::Sync() {
@@ -181,6 +193,10 @@ int Barrier::num_waiting() const {
   if (auto* logical =
           std::get_if<std::unique_ptr<LogicalBarrier>>(&algorithm_)) {
     return (*logical)->num_waiting();
+  }
+  if (auto* undecided =
+          std::get_if<std::unique_ptr<UndecidedBarrier>>(&algorithm_)) {
+    return (*undecided)->num_waiting();
   }
   if (auto* two_level = std::get_if<TwoLevelBarrier>(&algorithm_)) {
     return two_level->num_waiting();

@@ -18,6 +18,7 @@
 namespace macrotask {
 
 class LogicalBarrier;
+class UndecidedBarrier;
 
 // Internal: pthread_barrier_t with its errors checked, for WaitPolicy::Block().
 class BlockingBarrier {
@@ -100,7 +101,8 @@ class Barrier {
   // chooses, by policy and number of tasks. Of Sync():
   using Algorithm =
       std::variant<std::monostate, BlockingBarrier, CountingBarrier,
-                   TwoLevelBarrier, std::unique_ptr<LogicalBarrier>>;
+                   TwoLevelBarrier, std::unique_ptr<LogicalBarrier>,
+                   std::unique_ptr<UndecidedBarrier>>;
   // Of Sync(member); none: that of Sync().
   using MemberAlgorithm =
       std::variant<std::monostate, DisseminationBarrier, TreeBarrier>;

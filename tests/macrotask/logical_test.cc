@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -141,7 +142,10 @@ TEST(LogicalTaskTest, KeepsTheExceptionThatItHandlesAcrossAWait) {
 }
 
 TEST(LogicalBarrierTest, MayBeOfAnyOtherPolicy) {
-  for (const WaitPolicy& policy : kAllPolicies) {
+  std::vector<WaitPolicy> policies(std::begin(kAllPolicies),
+                                   std::end(kAllPolicies));
+  policies.push_back(WaitPolicy());
+  for (const WaitPolicy& policy : policies) {
     Barrier barrier(kManyTasks, policy);
     EXPECT_EQ(CountPhaseErrors(
                   kManyTasks, 20, [&](int) { barrier.Sync(); },

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <deque>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "macrotask/barrier.h"
@@ -81,6 +82,24 @@ TEST(TwoLevelBarrierTest, LosesNobodyWhoGivesUpWatching) {
                   kNumTasks, 500, [&](int) { barrier.Sync(); }, policy),
               0)
         << hold_time_ns;
+  }
+}
+
+// One that nobody has said the policy of is decided by whoever comes first, and
+// serves all others all the same.
+TEST(UndecidedBarrierTest, ServesPthreadsAndLogicalTasksInTurn) {
+  Barrier first_logical(kNumTasks);
+  Barrier first_pthreads(kNumTasks);
+  const WaitPolicy logical = WaitPolicy::Logical(), hold = WaitPolicy::Hold();
+  for (const auto& [barrier, policies] :
+       {std::pair{&first_logical, std::vector{logical, hold, logical}},
+        std::pair{&first_pthreads, std::vector{hold, logical, hold}}}) {
+    for (const WaitPolicy& policy : policies) {
+      EXPECT_EQ(CountPhaseErrors(
+                    kNumTasks, 50, [&](int) { barrier->Sync(); }, policy),
+                0);
+    }
+    EXPECT_EQ(barrier->num_waiting(), 0);
   }
 }
 
