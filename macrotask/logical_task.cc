@@ -1,11 +1,13 @@
 #include "macrotask/logical_task.h"
 
+#include <atomic>
 #include <boost/context/protected_fixedsize_stack.hpp>
 #include <new>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "macrotask/cache_line.h"
 #include "macrotask/logical_processor.h"
 #include "macrotask/mutex.h"
 #include "macrotask/task_registry.h"
@@ -16,6 +18,20 @@ namespace macrotask {
 namespace {
 
 constexpr std::size_t kDefaultStackSize = std::size_t{1} << 20;
+
+// Stacks begin at pages, so that what tasks have on top of them would all fall
+// into the same few sets of the first cache, which has room for 8 of them: they
+// begin at different lines of the page instead.
+constexpr std::size_t kMostColors = 64;
+
+std::size_t NextColor() {
+  static std::atomic<std::size_t> num_stacks{0};
+  // An odd step goes through all colours, and keeps neighbours apart by more
+  // than a frame.
+  constexpr std::size_t kStep = 11;
+  return num_stacks.fetch_add(1, std::memory_order_relaxed) * kStep %
+         kMostColors;
+}
 
 // Never destroyed, as a task may outlive the static objects.
 struct Parked {
@@ -32,11 +48,15 @@ Parked& TheParked() {
 
 LogicalTask::LogicalTask(std::size_t size) : stack_size(size) {
   if (size == 0) return;  // the stack of a pthread
-  const auto stack = boost::context::protected_fixedsize_stack(size).allocate();
+  const auto stack =
+      boost::context::protected_fixedsize_stack(size + kMostColors * kCacheLine)
+          .allocate();
   annotations.Make();
   annotations.SetStack(static_cast<char*>(stack.sp) - stack.size, stack.size);
-  context = boost::context::detail::make_fcontext(stack.sp, stack.size,
-                                                  &LogicalProcessor::RunBodies);
+  const std::size_t skipped = NextColor() * kCacheLine;
+  context = boost::context::detail::make_fcontext(
+      static_cast<char*>(stack.sp) - skipped, stack.size - skipped,
+      &LogicalProcessor::RunBodies);
 }
 
 void LogicalTask::RunBody() {

@@ -78,26 +78,20 @@ TEST_F(SyncCli, MeasuresWhatOneProcessorCan) {
   EXPECT_TRUE(Has(outcome.text, "| needs 2 processors ")) << outcome.text;
 }
 
-TEST_F(SyncCli, BreakEvenNeedsTwoProcessors) {
-  const Told outcome = RunSync("--break-even", "taskset -c 0 ");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.text,
-            "macrotask: --break-even needs 2 processors: this process may use "
-            "1\n");
-}
-
 TEST_F(SyncCli, CalibratesTheHoldTime) {
   const Told outcome = RunSync("--calibrate --repetitions 2");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(Has(outcome.text, "CALL TSKTUNE('HOLDTIME', ")) << outcome.text;
 }
 
-TEST_F(SyncCli, CalibrationNeedsTwoProcessors) {
-  const Told outcome = RunSync("--calibrate", "taskset -c 0 ");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.text,
-            "macrotask: --calibrate needs 2 processors: this process may use "
-            "1\n");
+TEST_F(SyncCli, WhatComparesTwoTasksNeedsTwoProcessors) {
+  for (const std::string option : {"--break-even", "--calibrate"}) {
+    const Told outcome = RunSync(option, "taskset -c 0 ");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.text,
+              "macrotask: " + option +
+                  " needs 2 processors: this process may use 1\n");
+  }
 }
 
 TEST_F(SyncCli, BadInputIsOneSentenceAndExitCodeTwo) {
