@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "macrotask/cache_line.h"
 #include "macrotask/fiber_annotations.h"
 #include "macrotask/task_record.h"
 
@@ -24,7 +25,7 @@ struct ExceptionState {
 // Internal: a task with a stack of its own that takes turns with others on one
 // pthread (its logical processor). It is kept when its body has ended, parked at
 // the end of a loop, for the next body.
-struct LogicalTask {
+struct alignas(kCacheLine) LogicalTask {
   // With a stack of so many bytes and a guard page; 0 for that of the caller.
   explicit LogicalTask(std::size_t stack_size);
   LogicalTask(const LogicalTask&) = delete;
@@ -36,28 +37,7 @@ struct LogicalTask {
   static void Give(LogicalTask* task);
   static std::size_t WantedStackSize();
 
-  // Where it goes on; not while it runs.
-  boost::context::detail::fcontext_t context = nullptr;
-  std::size_t stack_size;
-  FiberAnnotations annotations;
-
-  // Of the body that it runs.
   void RunBody();
-  LogicalProcessor* processor = nullptr;
-  const std::function<void(int)>* body = nullptr;
-  int index = 0;
-  std::exception_ptr failure;
-  TaskRecord* record = nullptr;
-  bool has_record_of_pthread = false;  // that of the pthread's own task
-  std::uint32_t number = 0;
-
-  // Of its wait; none while is_over is null. At a LogicalBarrier it is over
-  // once the barrier is past `end_of_phase`; `barrier` is null otherwise.
-  TaskRecord::IsOver is_over = nullptr;
-  const void* wait = nullptr;
-  const WaitedObject* what = nullptr;
-  LogicalBarrier* barrier = nullptr;
-  std::uint64_t end_of_phase = 0;
 
   // For the same phase of the same barrier.
   bool WaitsLike(const LogicalTask& other) const {
@@ -65,11 +45,36 @@ struct LogicalTask {
            end_of_phase == other.end_of_phase;
   }
 
+  // What a turn needs comes first, on two lines.
+  //
+  // Where it goes on; not while it runs.
+  boost::context::detail::fcontext_t context = nullptr;
+  LogicalTask* next = nullptr;  // in the ring of its processor, or parked
+
+  // Of its wait; none while is_over is null. At a LogicalBarrier it is over
+  // once the barrier is past `end_of_phase`; `barrier` is null otherwise.
+  TaskRecord::IsOver is_over = nullptr;
+  const void* wait = nullptr;
+  LogicalBarrier* barrier = nullptr;
+  std::uint64_t end_of_phase = 0;
+  const WaitedObject* what = nullptr;
+
+  LogicalProcessor* processor = nullptr;
+  TaskRecord* record = nullptr;
+  std::uint32_t number = 0;
+
   // What the C++ runtime knows of the exceptions being handled on this stack.
   ExceptionState exceptions;
 
-  LogicalTask* next = nullptr;  // in the ring of its processor, or parked
-  LogicalTask* previous = nullptr;
+  // Of the body that it runs.
+  const std::function<void(int)>* body = nullptr;
+  int index = 0;
+  bool has_record_of_pthread = false;  // that of the pthread's own task
+  std::exception_ptr failure;
+
+  LogicalTask* previous = nullptr;  // in the ring
+  const std::size_t stack_size;
+  FiberAnnotations annotations;
 };
 
 // Internal: so many logical tasks, for the length of a block.
