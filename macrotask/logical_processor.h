@@ -45,7 +45,7 @@ class LogicalProcessor {
   // Lets the next task that can go on have a turn.
   void Yield();
 
-  // Calls FlushPending() of the barrier before this processor has nothing to
+  // Calls Publish() of the barrier before this processor has nothing to
   // do.
   void FlushLater(LogicalBarrier* barrier) { unflushed_.push_back(barrier); }
   void IsFlushed(LogicalBarrier* barrier) { std::erase(unflushed_, barrier); }

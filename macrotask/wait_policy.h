@@ -29,9 +29,10 @@ inline constexpr std::chrono::nanoseconds kDefaultHoldTime =
 // for logical tasks alone: a pthread_barrier_t knows of pthreads only.)
 //
 // Cray name: HOLDTIME, a keyword of TSKTUNE, is `hold_time`.
-// Use: with more live tasks than processors kHold sleeps at once and kSpin
-// yields the processor between two looks, so that every policy makes progress
-// with any number of tasks. Live tasks are the initial one and those of this
+// Use: with more live tasks than processors kHold sleeps at once (at a barrier
+// all but the last to arrive on a processor) and kSpin yields the processor
+// between two looks, so that every policy makes progress with any number of
+// tasks. Live tasks are the initial one and those of this
 // library; other threads of the program are not counted.
 // Cost: every bench row of a synchronization says which policy it is of.
 //

@@ -103,6 +103,20 @@ TEST(UndecidedBarrierTest, ServesPthreadsAndLogicalTasksInTurn) {
   }
 }
 
+// Both kinds in one phase must come to the same decision, whoever is first.
+TEST(UndecidedBarrierTest, ServesAPthreadBesideLogicalTasks) {
+  for (int round = 0; round < 20; ++round) {
+    Barrier barrier(kNumTasks + 1);
+    Phases phases(barrier);
+    std::thread other([&] { phases.Run(kNumTasks, 5); });
+    RunTasks(
+        kNumTasks, [&](int task) { phases.Run(task, 5); },
+        WaitPolicy::Logical());
+    other.join();
+    EXPECT_EQ(phases.num_errors(), 0);
+  }
+}
+
 TEST(TwoLevelBarrierTest, CountsWhoWaits) {
   Barrier barrier(kNumTasks, WaitPolicy::Hold());
   RunTasks(
