@@ -10,6 +10,7 @@
 #include "bench/build_info.h"
 #include "bench/command_options.h"
 #include "bench/output_file.h"
+#include "bench/predict_command.h"
 #include "bench/report.h"
 #include "bench/reproduce.h"
 #include "bench/simulate.h"
@@ -163,7 +164,9 @@ int Main(int argc, char** argv) {
       "  macrotask reproduce     their experiment, Tables 1 and 2\n"
       "  macrotask simulate      one run of it, as you like\n"
       "  macrotask trace         read a history trace\n"
-      "  macrotask sync          what synchronization costs on this machine\n",
+      "  macrotask sync          what synchronization costs on this machine\n"
+      "  macrotask predict       machines with other numbers of processors\n"
+      "  macrotask tune          the fastest way to run it on this machine\n",
       "macrotask"};
   app.set_version_flag("--version",
                        fmt::format("macrotask {} ({})", kVersion, kGitHash));
@@ -192,12 +195,23 @@ int Main(int argc, char** argv) {
   CLI::App* sync_app = app.add_subcommand("sync", SyncCommand::kDescription);
   sync.Add(sync_app);
 
+  PredictCommand predict;
+  CLI::App* predict_app =
+      app.add_subcommand("predict", PredictCommand::kDescription);
+  predict.Add(predict_app);
+
+  TuneCommand tune;
+  CLI::App* tune_app = app.add_subcommand("tune", TuneCommand::kDescription);
+  tune.Add(tune_app);
+
   try {
     app.parse(argc, argv);
     if (reproduce_app->parsed()) reproduce.Run();
     if (simulate_app->parsed()) simulate.Run();
     if (trace_app->parsed()) trace.Run();
     if (sync_app->parsed()) sync.Run();
+    if (predict_app->parsed()) predict.Run();
+    if (tune_app->parsed()) tune.Run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     fmt::print(stderr, "macrotask: {}\n", error.what());

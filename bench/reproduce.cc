@@ -1,6 +1,5 @@
 #include "bench/reproduce.h"
 
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -21,14 +20,6 @@ using integrators::IntegrationOptions;
 using integrators::IntegrationResult;
 using integrators::Partition;
 
-// Between these numbers of steps the errors of all three methods pass through
-// the range of the regression. Multiples of four, so that all three start from
-// the same five values and whole blocks remain.
-constexpr int kFirstSteps = 32;
-constexpr int kLastSteps = 200;
-constexpr int kStepsApart = 4;
-constexpr Interval kErrorRange = {5e-8, 2e-5};  // m
-
 IntegrationOptions OptionsFor(const BlockMethod& method, const LiftCase& lift,
                               Partition partition, macrotask::WaitPolicy wait) {
   return {
@@ -38,42 +29,6 @@ IntegrationOptions OptionsFor(const BlockMethod& method, const LiftCase& lift,
       .figure = partition.num_tasks() == 1 ? Figure::kSerial : Figure::kFigure8,
       .partition = partition,
       .wait = wait};
-}
-
-MethodSweep Sweep(const BlockMethod& method,
-                  const std::vector<std::unique_ptr<LiftCase>>& lifts) {
-  MethodSweep sweep = {
-      .method = method, .points = {}, .fit = {}, .steps_at_target = 0};
-  std::vector<double> steps, errors;
-  for (const auto& lift : lifts) {
-    const dynamics::ClosedChainSystem system(lift->lift().model,
-                                             lift->torques(), Lanes::kFour);
-    Integration integration(system, OptionsFor(method, *lift, {}, {}));
-    const double error =
-        lift->Error(integration.RunFrom(lift->Planned()).state);
-    sweep.points.push_back({lift->num_steps(), error});
-    if (error < kErrorRange.low || error > kErrorRange.high) continue;
-    steps.push_back(lift->num_steps());
-    errors.push_back(error);
-  }
-  sweep.fit = FitPowerLaw(steps, errors);
-  sweep.steps_at_target = sweep.fit.X(kTargetError);
-  return sweep;
-}
-
-std::vector<MethodSweep> SweepAll(Progress* progress) {
-  std::vector<std::unique_ptr<LiftCase>> lifts;
-  for (int steps = kFirstSteps; steps <= kLastSteps; steps += kStepsApart) {
-    progress->Show("plan", steps - kFirstSteps, kLastSteps - kFirstSteps);
-    lifts.push_back(std::make_unique<LiftCase>(dynamics::PumaLift(), steps));
-  }
-  std::vector<MethodSweep> sweeps;
-  for (const BlockMethod& method :
-       {integrators::B4PC5(), integrators::B2PC5(), integrators::B1PC5()}) {
-    progress->Show("sweep", static_cast<int>(sweeps.size()), 3);
-    sweeps.push_back(Sweep(method, lifts));
-  }
-  return sweeps;
 }
 
 bool SameBits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -92,9 +47,7 @@ struct RunningRow {
 struct MethodCase {
   MethodCase(const MethodSweep& of, Lanes lanes)
       : sweep(of),
-        lift(dynamics::PumaLift(),
-             kStepsApart *
-                 static_cast<int>(std::ceil(of.steps_at_target / kStepsApart))),
+        lift(dynamics::PumaLift(), WholeSteps(of)),
         system(lift.lift().model, lift.torques(), lanes) {}
 
   const MethodSweep& sweep;
@@ -235,7 +188,12 @@ Reproduction Reproduce(const ReproduceOptions& options) {
   result.wait = options.wait.For(macrotask::NumProcessors());
   result.placement =
       macrotask::Placement(macrotask::NumProcessors()).ToString();
-  result.sweeps = SweepAll(&progress);
+  result.sweeps = SweepMethods(
+      {integrators::B4PC5(), integrators::B2PC5(), integrators::B1PC5()},
+      [] { return dynamics::PumaLift(); },
+      [&](const char* what, int done, int all) {
+        progress.Show(what, done, all);
+      });
 
   std::vector<LaneMeasurement> measurements;
   measurements.reserve(2);  // rows are pointed to

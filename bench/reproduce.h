@@ -8,27 +8,13 @@
 #include "bench/machine.h"
 #include "bench/paper.h"
 #include "bench/statistics.h"
+#include "bench/sweep.h"
 
 namespace bench {
 
 struct ReproduceOptions {
   int repetitions = 200;
   macrotask::WaitPolicy wait = {};
-};
-
-// The error of the lift with one number of steps, without a clock.
-struct SweepPoint {
-  int steps;
-  double error;  // m
-};
-
-// The errors of one method over its sweep, and the number of steps for an error
-// of 1e-6 m by log-log regression over errors from 5e-8 m to 2e-5 m.
-struct MethodSweep {
-  integrators::BlockMethod method;
-  std::vector<SweepPoint> points;
-  PowerLaw fit;
-  double steps_at_target;
 };
 
 // One row of Table 2 (and of Table 1, if the block has four points).
@@ -71,9 +57,6 @@ struct Reproduction {
   std::vector<LaneTables> lanes;    // four, one
   std::vector<Cost> costs;
 };
-
-// Distance (m) for which execution times are compared.
-inline constexpr double kTargetError = 1e-6;
 
 // Runs the canonical experiment.
 Reproduction Reproduce(const ReproduceOptions& options);

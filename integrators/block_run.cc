@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace integrators {
-namespace {
-
-// First of `items` things that part `part` of `parts` owns.
-int FirstOfPart(int items, int parts, int part) { return items * part / parts; }
-
-}  // namespace
-
 BlockRun::BlockRun(const System& run_system, BlockMethod run_method,
                    double run_step, int run_num_steps, Partition run_partition,
                    RmaSharing run_rma)
@@ -28,13 +21,12 @@ BlockRun::BlockRun(const System& run_system, BlockMethod run_method,
       shared_coupling(static_cast<std::size_t>(method.block_size *
                                                system.coupling_size())) {
   for (int part = 0; part < partition.chain_tasks; ++part) {
-    const int m = system.num_chains();
-    const int first = FirstOfPart(m, partition.chain_tasks, part);
-    const int end = FirstOfPart(m, partition.chain_tasks, part + 1);
+    const Share chains =
+        ShareOf(system.num_chains(), partition.chain_tasks, part);
     const bool has_common = rma == RmaSharing::kRedundant || part == 0;
-    columns.emplace_back(method,
-                         StateLayout(system, first, end - first, has_common),
-                         num_start_steps);
+    columns.emplace_back(
+        method, StateLayout(system, chains.first, chains.count, has_common),
+        num_start_steps);
   }
 }
 

@@ -19,6 +19,16 @@ struct Partition {
   int num_tasks() const { return chain_tasks * integration_tasks; }
 };
 
+// What part `part` of `parts` owns of `items` things: as many or one more each.
+struct Share {
+  int first = 0;
+  int count = 0;
+};
+inline Share ShareOf(int items, int parts, int part) {
+  const int first = items * part / parts;
+  return {first, items * (part + 1) / parts - first};
+}
+
 // The two derivative evaluations of an iteration, PE and CE.
 enum class Phase { kPredicted = 0, kCorrected = 1 };
 

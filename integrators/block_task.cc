@@ -22,9 +22,8 @@ void ClaimLines(double* values, std::size_t size) {
   }
 }
 
-// Points that come before integration task i's.
-int PointsBefore(const BlockRun& run, int i) {
-  return run.method.block_size * i / run.partition.integration_tasks;
+Share PointsOf(const BlockRun& run, int i) {
+  return ShareOf(run.method.block_size, run.partition.integration_tasks, i);
 }
 
 }  // namespace
@@ -34,9 +33,8 @@ BlockTask::BlockTask(BlockRun* run, int i, int k, EvaluationFactory* factory)
       column_(run->columns[static_cast<std::size_t>(k)]),
       failure_(run->failure(i, k)),
       rma_column_(run->rma == RmaSharing::kSerial ? 0 : k),
-      first_point_(PointsBefore(*run, i) + 1),
-      times_(static_cast<std::size_t>(PointsBefore(*run, i + 1) -
-                                      PointsBefore(*run, i))),
+      first_point_(PointsOf(*run, i).first + 1),
+      times_(static_cast<std::size_t>(PointsOf(*run, i).count)),
       codes_(times_.size()),
       evaluation_(factory->Make(column_.layout().first_chain(),
                                 column_.layout().num_chains(), first_point_ - 1,

@@ -72,6 +72,7 @@ std::exception_ptr LogicalProcessor::Run() {
   processor_of_caller = this;
   SwitchTo(tasks_.front());
   processor_of_caller = nullptr;
+  RecordWaitForNeighbours();
   std::exception_ptr failure;
   for (LogicalTask* task : tasks_) {
     if (!task->has_record_of_pthread) {
@@ -124,7 +125,25 @@ void LogicalProcessor::Finish() {
   if (num_left_ > 0 || !task->has_record_of_pthread) {
     task->record->SetComplete();
   }
+  if (num_left_ > 0 && task->has_record_of_pthread) {
+    waits_for_neighbours_ = true;
+    RecordIf(TraceClass::kTasks, TraceAction::kTaskWait,
+             TraceData(tasks_[1]->number));
+  }
   SwitchTo(num_left_ == 0 ? &pthread_ : NextTurn(task->next));
+}
+
+// By the pthread, when all bodies have ended. In the history trace its first
+// task, which bears its number, waits for the others.
+void LogicalProcessor::RecordWaitForNeighbours() {
+  for (std::size_t i = 1; i < tasks_.size(); ++i) {
+    const std::uint64_t data = TraceData(tasks_[i]->number);
+    if (i > 1 || !waits_for_neighbours_) {
+      RecordIf(TraceClass::kTasks, TraceAction::kTaskWait, data);
+    }
+    RecordIf(TraceClass::kTasks, TraceAction::kTaskWaitEnd, data);
+  }
+  waits_for_neighbours_ = false;
 }
 
 void LogicalProcessor::Wait(const WaitedObject& what,

@@ -71,6 +71,7 @@ class LogicalProcessor {
   void PublishWaits();
   void EndWaits();
   void Flush();
+  void RecordWaitForNeighbours();
 
   const LogicalSlot slot_;
   std::vector<LogicalTask*> tasks_;  // in the order of Add()
@@ -81,6 +82,7 @@ class LogicalProcessor {
   ExceptionState* exceptions_ = nullptr;  // those of the pthread
   int num_turns_ = 0;                     // since the last Flush()
   bool waits_are_published_ = false;
+  bool waits_for_neighbours_ = false;  // the first task, in the history trace
   std::vector<LogicalBarrier*> unflushed_;
 };
 

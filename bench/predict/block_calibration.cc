@@ -1,0 +1,241 @@
+#include "bench/predict/block_calibration.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+
+#include "bench/breakdown.h"
+#include "bench/predict/figure_program.h"
+#include "bench/predict/marked_system.h"
+#include "bench/predict/measured_run.h"
+#include "bench/predict/step_reader.h"
+#include "bench/statistics.h"
+#include "bench/sync_clock.h"
+#include "integrators/integration.h"
+#include "macrotask/placement.h"
+#include "macrotask/trace.h"
+
+namespace bench::predict {
+namespace {
+
+using dynamics::ClosedChainSystem;
+using integrators::Partition;
+using MarkedSystem = SystemWith<ClosedChainSystem>;
+
+// Six points make shares of 1, 2, 3 and 6, and up to two registers of them.
+constexpr int kPoints = 6, kValues = 7;
+constexpr int kSteps = kValues - 1 + 10 * kPoints;
+
+void StartRecording() {
+  using macrotask::TraceClass;
+  macrotask::SetTraceClasses(static_cast<std::uint32_t>(TraceClass::kEvents) |
+                             static_cast<std::uint32_t>(TraceClass::kUsers) |
+                             macrotask::kLeanTrace);
+}
+
+}  // namespace
+
+double MeasureRecord() {
+  constexpr int kMarks = 2000;
+  StartRecording();
+  RecordBegin(0);
+  for (int i = 0; i < kMarks; ++i) Mark(Block::kOther);
+  RecordEnd(0);
+  macrotask::SetTraceClasses(0);
+  const macrotask::Trace trace = macrotask::TakeTrace();
+  const RunRecords run = RecordsOfLastRun(trace, 1);
+  std::vector<double> seconds;
+  for (std::size_t i = 1; i < run[0].size(); ++i) {
+    seconds.push_back(
+        static_cast<double>(run[0][i].clock - run[0][i - 1].clock) /
+        trace.ticks_per_second);
+  }
+  return Median(seconds);
+}
+
+struct BlockSampler::Run {
+  Run(const LiftCase& of_lift, const FigureCase& of_case, int of_lanes,
+      int of_processors)
+      : lift(of_lift),
+        figure_case(of_case),
+        num_lanes(of_lanes),
+        processors(of_processors),
+        system(lift.lift().model, lift.torques(),
+               static_cast<dynamics::Lanes>(of_lanes)),
+        marked(system, {.marks = true}),
+        integration(marked,
+                    {.method = of_case.method,
+                     .step = of_lift.step(),
+                     .num_steps = of_lift.num_steps(),
+                     .figure = of_case.figure,
+                     .partition = of_case.partition,
+                     .wait = of_processors == 1
+                                 ? macrotask::WaitPolicy::Logical()
+                                 : macrotask::WaitPolicy::Hold(),
+                     .on_begin = &RecordBegin,
+                     .on_end = &RecordEnd}) {}
+
+  const LiftCase& lift;
+  FigureCase figure_case;
+  int num_lanes;
+  int processors;
+  ClosedChainSystem system;
+  MarkedSystem marked;
+  integrators::Integration integration;
+};
+
+BlockSampler::BlockSampler(const std::vector<int>& lanes)
+    : record_seconds_(MeasureRecord()) {
+  for (const int num_lanes : lanes) {
+    for (const Partition partition :
+         {Partition{1, 1}, {2, 1}, {4, 1}, {1, 2}, {1, 3}, {2, 3}, {4, 6}}) {
+      Add(num_lanes, 4, partition, 1);
+    }
+    Add(num_lanes, 2, {1, 1}, 1);
+    if (macrotask::NumProcessors() < 2) continue;
+    for (const Partition partition : {Partition{2, 1}, {1, 2}}) {
+      Add(num_lanes, 4, partition, 2);
+    }
+  }
+}
+
+BlockSampler::~BlockSampler() = default;
+
+void BlockSampler::Add(int num_lanes, int num_chains, Partition partition,
+                       int processors) {
+  auto& lift = lifts_[num_chains];
+  if (!lift) {
+    lift = std::make_unique<LiftCase>(dynamics::PumaLift(num_chains), kSteps);
+  }
+  const ProcessorsFor use(processors);
+  runs_.push_back(std::make_unique<Run>(
+      *lift,
+      FigureCase{.method = integrators::MakeBlockMethod(kPoints, kValues),
+                 .figure = integrators::Figure::kFigure8,
+                 .partition = partition,
+                 .num_chains = num_chains,
+                 .num_steps = kSteps},
+      num_lanes, processors));
+}
+
+void BlockSampler::Round() {
+  for (const auto& run : runs_) {
+    if (run->processors == 1) {
+      const ProcessorsFor use(1);
+      Measure(*run);
+    } else {
+      Measure(*run);
+    }
+  }
+}
+
+void BlockSampler::Measure(Run& run) {
+  const double round_trip =
+      run.processors == 1 ? 0 : probe_.Look().round_trip;
+  run.integration.RunFrom(run.lift.Planned());
+  StartRecording();
+  run.integration.RunFrom(run.lift.Planned());
+  macrotask::SetTraceClasses(0);
+  const macrotask::Trace trace = macrotask::TakeTrace();
+  const RunRecords records =
+      RecordsOfLastRun(trace, run.figure_case.partition.num_tasks());
+  StepReader reader(trace.ticks_per_second, record_seconds_, {});
+  for (std::size_t t = 0; t < records.size(); ++t) {
+    std::array<std::vector<double>, kNumBlocks> seconds;
+    for (const Step& step : NameBlocks(reader.Read(records[t]), t == 0)) {
+      if (step.kind != StepKind::kCompute) continue;
+      seconds[static_cast<std::size_t>(step.block)].push_back(step.seconds);
+    }
+    for (int b = 0; b < kNumBlocks; ++b) {
+      const auto block = static_cast<Block>(b);
+      const auto& own = seconds[static_cast<std::size_t>(b)];
+      if (own.empty() || block == Block::kOther) continue;
+      const double median = Median(own);
+      samples_.push_back(
+          {.num_lanes = run.num_lanes,
+           .block = block,
+           .counts = CountsOf(block, run.figure_case, {}, run.num_lanes,
+                              static_cast<int>(t), run.processors),
+           .together = run.processors > 1,
+           .round_trip = round_trip,
+           .seconds = median});
+      if (records.size() > 1 || run.figure_case.num_chains != 4) continue;
+      auto& ratios = ratios_[{run.num_lanes, block}];
+      if (own.size() < 2 || !(median > 0)) continue;
+      for (const double s : own) ratios.push_back(s / median);
+    }
+  }
+}
+
+std::vector<double> BlockSampler::round_trips() const {
+  std::vector<double> trips;
+  for (const BlockSample& sample : samples_) {
+    if (sample.round_trip > 0) trips.push_back(sample.round_trip);
+  }
+  return trips;
+}
+
+std::vector<BlockSample> MediansOfGroups(
+    const std::vector<BlockSample>& samples) {
+  using Key = std::tuple<double, double, double>;
+  std::map<Key, std::vector<double>> groups;
+  for (const BlockSample& sample : samples) {
+    const Counts& counts = sample.counts;
+    groups[{counts.packs, counts.items, counts.lines}].push_back(
+        sample.seconds);
+  }
+  std::vector<BlockSample> medians;
+  for (const auto& [key, seconds] : groups) {
+    BlockSample sample = samples.front();
+    sample.counts = {std::get<0>(key), std::get<1>(key), std::get<2>(key)};
+    sample.seconds = Median(seconds);
+    medians.push_back(sample);
+  }
+  return medians;
+}
+
+BlockCost FitBlock(const std::vector<BlockSample>& samples) {
+  std::array<bool, 3> used = {true, true, true};
+  Eigen::Vector3d cost = Eigen::Vector3d::Zero();
+  for (;;) {
+    Eigen::MatrixXd A(static_cast<long>(samples.size()), 3);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const BlockSample& sample = samples[i];
+      const double weight = 1 / std::max(sample.seconds, 1e-9);
+      const std::array<double, 3> row = {1, sample.counts.packs,
+                                         sample.counts.items};
+      for (std::size_t j = 0; j < 3; ++j) {
+        A(static_cast<long>(i), static_cast<long>(j)) =
+            used[j] ? row[j] * weight : 0;
+      }
+    }
+    Eigen::VectorXd ones = Eigen::VectorXd::Ones(A.rows());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!(samples[i].seconds > 1e-9)) ones[static_cast<long>(i)] = 0;
+    }
+    cost = A.completeOrthogonalDecomposition().solve(ones);
+    Eigen::Index least;
+    if (cost.minCoeff(&least) >= 0) break;
+    used[static_cast<std::size_t>(least)] = false;
+  }
+  return {.call = cost[0], .pack = cost[1], .item = cost[2]};
+}
+
+Spread SpreadOf(std::vector<double> ratios) {
+  constexpr int kIntervals = 40;
+  constexpr double kLeftOut = 0.01;
+  if (ratios.size() < kIntervals) return {};
+  Spread spread;
+  std::sort(ratios.begin(), ratios.end());
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double u = kLeftOut + (1 - 2 * kLeftOut) * i / kIntervals;
+    const auto place = static_cast<std::size_t>(
+        u * static_cast<double>(ratios.size() - 1) + 0.5);
+    spread.push_back(ratios[place]);
+  }
+  return spread;
+}
+
+}  // namespace bench::predict

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bench/lift_case.h"
+#include "bench/predict/figure_costs.h"
+#include "bench/predict/machine.h"
+#include "bench/sync_conditions.h"
+#include "dynamics/closed_chain_system.h"
+
+// What the blocks of the computation cost on this machine.
+
+namespace bench::predict {
+
+// The median over the calls of one task in one run, and what it did.
+struct BlockSample {
+  int num_lanes = 4;
+  Block block = Block::kOther;
+  Counts counts;
+  bool together = false;   // another processor computed at the same time
+  double round_trip = 0;   // s, between the processors
+  double seconds = 0;
+};
+
+// Costs that grow with packs and items as the samples do: least squares of the
+// relative errors, no coefficient negative. Where the samples do not tell two
+// of them apart, the smaller ones of all solutions.
+BlockCost FitBlock(const std::vector<BlockSample>& samples);
+
+// The medians of samples with the same counts.
+std::vector<BlockSample> MediansOfGroups(
+    const std::vector<BlockSample>& samples);
+
+// Quantiles from 1 % to 99 %: what lies outside, interrupts of the
+// processor, does not belong to the block.
+Spread SpreadOf(std::vector<double> ratios);
+
+// What writing a record of the history trace takes, next to another one (s).
+double MeasureRecord();
+
+// Runs a method that nobody uses, B6PC7, with marks in its history trace, in
+// partitions on one processor and on two, and takes the blocks' durations from
+// there, so that they are those of a run and not of a loop.
+class BlockSampler {
+ public:
+  explicit BlockSampler(const std::vector<int>& lanes);
+  ~BlockSampler();
+
+  // Runs everything once. Requires PrepareTrace() before.
+  void Round();
+
+  const std::vector<BlockSample>& samples() const { return samples_; }
+  // Ratios to the medians, by lanes and block.
+  const std::map<std::pair<int, Block>, std::vector<double>>& ratios() const {
+    return ratios_;
+  }
+  std::vector<double> round_trips() const;
+
+ private:
+  struct Run;
+  void Add(int num_lanes, int num_chains, integrators::Partition partition,
+           int processors);
+  void Measure(Run& run);
+
+  double record_seconds_;
+  std::map<int, std::unique_ptr<LiftCase>> lifts_;  // by number of chains
+  std::vector<std::unique_ptr<Run>> runs_;
+  ConditionsProbe probe_;
+  std::vector<BlockSample> samples_;
+  std::map<std::pair<int, Block>, std::vector<double>> ratios_;
+};
+
+}  // namespace bench::predict

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "bench/predict/block_calibration.h"
+#include "bench/predict/machine.h"
+#include "bench/predict/wait_calibration.h"
+#include "macrotask/wait_policy.h"
+
+// This machine as a model, measured.
+
+namespace bench::predict {
+
+struct CalibrationOptions {
+  std::vector<int> lanes = {1, 4};
+  std::chrono::nanoseconds hold_time = macrotask::kDefaultHoldTime;
+};
+
+class Calibration {
+ public:
+  // Throws std::invalid_argument, one sentence, if there are not two
+  // processors, or the history trace is in use.
+  explicit Calibration(const CalibrationOptions& options);
+
+  // Measures everything some times, in turn.
+  void Round();
+
+  // The split of near and far that all round trips so far, and `others`, show.
+  DistanceSplit Split(const std::vector<double>& others = {}) const;
+  // What all rounds so far say.
+  MachineModel Fit(const DistanceSplit& split) const;
+
+ private:
+  double FitSlowdown(const MachineModel& machine) const;
+  double FitLine(const MachineModel& machine, const DistanceSplit& split,
+                 Distance distance, double guess) const;
+
+  CalibrationOptions options_;
+  BlockSampler blocks_;
+  WaitSampler waits_;
+};
+
+// Makes rounds enough for a prediction.
+MachineModel Calibrate(const CalibrationOptions& options,
+                       const std::function<void(int, int)>& show);
+
+}  // namespace bench::predict
