@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "bench/one_point.h"
 #include "bench/ping_pong.h"
 #include "macrotask/barrier.h"
 #include "macrotask/deadlock.h"
@@ -29,50 +30,6 @@ double TimeLoop(int calls, const std::function<void(int)>& loop) {
   loop(calls);
   return SecondsSince(start) / calls;
 }
-
-// All chains at one point, in the middle of the lift.
-class OnePoint {
- public:
-  OnePoint(const LiftCase& lift, dynamics::Lanes lanes)
-      : system_(lift.lift().model, lift.torques(), lanes),
-        exchange_(system_.MakeExchange(1)),
-        evaluator_(
-            system_.MakeEvaluator(0, system_.num_chains(), 0, 1, &exchange_)),
-        state_(lift.InitialState()),
-        rate_(state_.size()) {
-    const int n = lift.num_steps() / 2;
-    lift.Planned()(n, state_.data(), rate_.data());
-    time_ = n * lift.step();
-    std::size_t offset = 0;
-    for (int k = 0; k < system_.num_chains(); ++k) {
-      chain_states_.push_back(state_.data() + offset);
-      chain_rates_.push_back(rate_.data() + offset);
-      offset += static_cast<std::size_t>(system_.chain_size(k));
-    }
-    common_state_ = state_.data() + offset;
-    common_rate_ = rate_.data() + offset;
-  }
-
-  void Ocd() { evaluator_.Ocd(0, {&time_, 1}, chain_states_); }
-  void Rma() {
-    evaluator_.Rma(0, {&common_state_, 1}, {&common_rate_, 1}, a_r_,
-                   {&failure_, 1});
-  }
-  void Ccd() { evaluator_.Ccd(a_r_, chain_rates_); }
-
- private:
-  dynamics::ClosedChainSystem system_;
-  dynamics::TipExchange exchange_;
-  dynamics::Evaluator evaluator_;
-  std::vector<double> state_, rate_;
-  std::vector<const double*> chain_states_;
-  std::vector<double*> chain_rates_;
-  const double* common_state_;
-  double* common_rate_;
-  double a_r_[6];
-  double time_;
-  int failure_;
-};
 
 struct Measured {
   Cost cost;
@@ -115,11 +72,7 @@ Measured TwoAtOnce(const LiftCase& lift, dynamics::Lanes lanes,
   return {{"evaluation, two at once", with, {}}, kCalls, [points](int calls) {
             macrotask::RunTasks(2, [&](int task) {
               OnePoint& point = *(*points)[static_cast<std::size_t>(task)];
-              for (int call = 0; call < calls; ++call) {
-                point.Ocd();
-                point.Rma();
-                point.Ccd();
-              }
+              for (int call = 0; call < calls; ++call) point.Evaluate();
             });
           }};
 }
@@ -140,9 +93,7 @@ std::vector<Cost> MeasureBlocks(const LiftCase& lift, int repetitions) {
     measured.push_back(
         {{"CCD", with, {}}, kCalls, Repeat([point] { point->Ccd(); })});
     measured.push_back({{"evaluation", with, {}}, kCalls, Repeat([point] {
-                          point->Ocd();
-                          point->Rma();
-                          point->Ccd();
+                          point->Evaluate();
                         })});
     if (macrotask::NumProcessors() >= 2) {
       measured.push_back(TwoAtOnce(lift, lanes, with));

@@ -71,8 +71,9 @@ std::string MachineHeader(const predict::MachineModel& machine) {
   for (const predict::Slowdown& slowdown : machine.slowdowns) {
     text += fmt::format(
         "slowdown:   computing takes {:.3f} times as long on {} processors or "
-        "more{}\n",
+        "more{}{}\n",
         slowdown.factor, slowdown.from_processors,
+        slowdown.lanes == 0 ? "" : fmt::format(", {} lanes", slowdown.lanes),
         slowdown.why.empty() ? "" : ": " + slowdown.why);
   }
   for (const predict::Condition& condition : machine.conditions) {
@@ -172,14 +173,18 @@ void PredictCommand::CheckOutputs() const {
 
 predict::MachineModel PredictCommand::GetMachine() const {
   predict::MachineModel machine;
+  const int most_tasks =
+      *std::max_element(processors_.begin(), processors_.end());
   if (machine_.empty()) {
     Progress progress;
+    predict::CalibrationOptions options = CalibrationWith(hold_time_us_);
+    options.most_tasks = std::max(options.most_tasks, most_tasks);
     machine = predict::Calibrate(
-        CalibrationWith(hold_time_us_),
+        options,
         [&](int done, int all) { progress.Show("calibrate", done, all); });
   } else {
     machine = predict::ReadMachine(machine_);
-    predict::PrepareTrace();
+    predict::PrepareTrace(most_tasks);
   }
   if (!write_machine_.empty()) {
     WriteOutput(write_machine_, predict::MachineText(machine));

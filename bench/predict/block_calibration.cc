@@ -35,6 +35,16 @@ void StartRecording() {
                              macrotask::kLeanTrace);
 }
 
+std::array<std::vector<double>, kNumBlocks> SecondsByBlock(
+    const std::vector<Step>& steps) {
+  std::array<std::vector<double>, kNumBlocks> seconds;
+  for (const Step& step : steps) {
+    if (step.kind != StepKind::kCompute) continue;
+    seconds[static_cast<std::size_t>(step.block)].push_back(step.seconds);
+  }
+  return seconds;
+}
+
 }  // namespace
 
 double MeasureRecord() {
@@ -121,60 +131,47 @@ void BlockSampler::Add(int num_lanes, int num_chains, Partition partition,
 }
 
 void BlockSampler::Round() {
-  for (const auto& run : runs_) {
-    if (run->processors == 1) {
-      const ProcessorsFor use(1);
-      Measure(*run);
-    } else {
-      Measure(*run);
-    }
-  }
+  for (const auto& run : runs_) Measure(*run);
 }
 
 void BlockSampler::Measure(Run& run) {
-  const double round_trip =
-      run.processors == 1 ? 0 : probe_.Look().round_trip;
-  run.integration.RunFrom(run.lift.Planned());
-  StartRecording();
-  run.integration.RunFrom(run.lift.Planned());
-  macrotask::SetTraceClasses(0);
-  const macrotask::Trace trace = macrotask::TakeTrace();
+  SampleConditions conditions = {.before = probe_.Look(), .after = {}};
+  const macrotask::Trace trace = TraceOf(run);
+  conditions.after = probe_.Look();
+  round_trips_.push_back(conditions.before.round_trip);
   const RunRecords records =
       RecordsOfLastRun(trace, run.figure_case.partition.num_tasks());
   StepReader reader(trace.ticks_per_second, record_seconds_, {});
   for (std::size_t t = 0; t < records.size(); ++t) {
-    std::array<std::vector<double>, kNumBlocks> seconds;
-    for (const Step& step : NameBlocks(reader.Read(records[t]), t == 0)) {
-      if (step.kind != StepKind::kCompute) continue;
-      seconds[static_cast<std::size_t>(step.block)].push_back(step.seconds);
-    }
+    const auto seconds =
+        SecondsByBlock(NameBlocks(reader.Read(records[t]), t == 0));
     for (int b = 0; b < kNumBlocks; ++b) {
-      const auto block = static_cast<Block>(b);
       const auto& own = seconds[static_cast<std::size_t>(b)];
+      const auto block = static_cast<Block>(b);
       if (own.empty() || block == Block::kOther) continue;
-      const double median = Median(own);
-      samples_.push_back(
-          {.num_lanes = run.num_lanes,
-           .block = block,
-           .counts = CountsOf(block, run.figure_case, {}, run.num_lanes,
-                              static_cast<int>(t), run.processors),
-           .together = run.processors > 1,
-           .round_trip = round_trip,
-           .seconds = median});
-      if (records.size() > 1 || run.figure_case.num_chains != 4) continue;
-      auto& ratios = ratios_[{run.num_lanes, block}];
-      if (own.size() < 2 || !(median > 0)) continue;
-      for (const double s : own) ratios.push_back(s / median);
+      BlockSample sample = {
+          .num_lanes = run.num_lanes,
+          .block = block,
+          .counts = CountsOf(block, run.figure_case, {}, run.num_lanes,
+                             static_cast<int>(t), run.processors),
+          .together = run.processors > 1,
+          .conditions = conditions,
+          .seconds = Median(own)};
+      if (records.size() == 1 && own.size() > 1 && sample.seconds > 0) {
+        for (const double s : own) sample.ratios.push_back(s / sample.seconds);
+      }
+      samples_.push_back(std::move(sample));
     }
   }
 }
 
-std::vector<double> BlockSampler::round_trips() const {
-  std::vector<double> trips;
-  for (const BlockSample& sample : samples_) {
-    if (sample.round_trip > 0) trips.push_back(sample.round_trip);
-  }
-  return trips;
+macrotask::Trace BlockSampler::TraceOf(Run& run) const {
+  const ProcessorsFor use(run.processors);
+  WarmUp([&] { run.integration.RunFrom(run.lift.Planned()); });
+  StartRecording();
+  run.integration.RunFrom(run.lift.Planned());
+  macrotask::SetTraceClasses(0);
+  return macrotask::TakeTrace();
 }
 
 std::vector<BlockSample> MediansOfGroups(

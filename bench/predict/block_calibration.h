@@ -9,7 +9,7 @@
 #include "bench/predict/figure_costs.h"
 #include "bench/predict/machine.h"
 #include "bench/sync_conditions.h"
-#include "dynamics/closed_chain_system.h"
+#include "macrotask/trace_file.h"
 
 // What the blocks of the computation cost on this machine.
 
@@ -20,9 +20,10 @@ struct BlockSample {
   int num_lanes = 4;
   Block block = Block::kOther;
   Counts counts;
-  bool together = false;   // another processor computed at the same time
-  double round_trip = 0;   // s, between the processors
+  bool together = false;  // another processor computed at the same time
+  SampleConditions conditions;
   double seconds = 0;
+  std::vector<double> ratios = {};  // of the calls of a serial run to that
 };
 
 // Costs that grow with packs and items as the samples do: least squares of the
@@ -53,24 +54,22 @@ class BlockSampler {
   void Round();
 
   const std::vector<BlockSample>& samples() const { return samples_; }
-  // Ratios to the medians, by lanes and block.
-  const std::map<std::pair<int, Block>, std::vector<double>>& ratios() const {
-    return ratios_;
-  }
-  std::vector<double> round_trips() const;
+  // All round trips between the processors that were seen (s).
+  const std::vector<double>& round_trips() const { return round_trips_; }
 
  private:
   struct Run;
   void Add(int num_lanes, int num_chains, integrators::Partition partition,
            int processors);
   void Measure(Run& run);
+  macrotask::Trace TraceOf(Run& run) const;
 
   double record_seconds_;
   std::map<int, std::unique_ptr<LiftCase>> lifts_;  // by number of chains
   std::vector<std::unique_ptr<Run>> runs_;
   ConditionsProbe probe_;
   std::vector<BlockSample> samples_;
-  std::map<std::pair<int, Block>, std::vector<double>> ratios_;
+  std::vector<double> round_trips_;
 };
 
 }  // namespace bench::predict

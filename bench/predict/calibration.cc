@@ -26,14 +26,76 @@ const CalibrationOptions& Checked(const CalibrationOptions& options) {
         "to measure what waiting costs takes 2 processors, and this process "
         "may use 1: expected --machine FILE");
   }
-  PrepareTrace();
+  PrepareTrace(options.most_tasks);
   return options;
+}
+
+using Samples = std::vector<BlockSample>;
+
+Samples Undisturbed(const Samples& samples, const DistanceSplit& split) {
+  Samples kept;
+  for (const BlockSample& sample : samples) {
+    const auto disturbance = JudgeSample(sample.conditions, split);
+    if (disturbance == Disturbance::kNone) kept.push_back(sample);
+  }
+  return kept;
 }
 
 double ModelSeconds(const MachineModel& machine, const BlockSample& sample) {
   return machine.BlocksOf(sample.num_lanes)[static_cast<std::size_t>(
       sample.block)]
       .Seconds(sample.counts.packs, sample.counts.items);
+}
+
+BlockCosts FitBlocks(const Samples& kept, int num_lanes) {
+  BlockCosts costs;
+  for (int b = 0; b < kNumBlocks; ++b) {
+    Samples own;
+    std::vector<double> ratios;
+    for (const BlockSample& sample : kept) {
+      const bool wanted = sample.num_lanes == num_lanes && !sample.together &&
+                          sample.block == static_cast<Block>(b);
+      if (!wanted) continue;
+      own.push_back(sample);
+      ratios.insert(ratios.end(), sample.ratios.begin(), sample.ratios.end());
+    }
+    if (own.empty()) continue;
+    BlockCost& cost = costs[static_cast<std::size_t>(b)];
+    cost = FitBlock(MediansOfGroups(own));
+    cost.spread = SpreadOf(ratios);
+  }
+  return costs;
+}
+
+// OCD and CCD read nothing that others write: what they take longer, they take
+// because another processor computes as well.
+double FitSlowdown(const MachineModel& machine, const Samples& kept,
+                   int num_lanes) {
+  std::vector<double> ratios;
+  for (const BlockSample& sample : kept) {
+    const bool own_data =
+        sample.block == Block::kOcd || sample.block == Block::kCcd;
+    if (!sample.together || !own_data || sample.num_lanes != num_lanes) {
+      continue;
+    }
+    ratios.push_back(sample.seconds / ModelSeconds(machine, sample));
+  }
+  return ratios.empty() ? 1 : std::max(1.0, Median(ratios));
+}
+
+// What a line from another processor costs in that block.
+double FitLine(const MachineModel& machine, const Samples& kept, Block block,
+               const DistanceSplit& split, Distance distance) {
+  std::vector<double> seconds;
+  for (const BlockSample& sample : kept) {
+    const bool has_lines = sample.block == block && sample.counts.lines > 0;
+    if (!has_lines || split.Of(sample.conditions.before.round_trip) != distance) continue;
+    seconds.push_back(
+        (sample.seconds - machine.SlowdownOn(2, sample.num_lanes) *
+                              ModelSeconds(machine, sample)) /
+        sample.counts.lines);
+  }
+  return seconds.empty() ? 0 : std::max(0.0, Median(seconds));
 }
 
 }  // namespace
@@ -56,34 +118,6 @@ DistanceSplit Calibration::Split(const std::vector<double>& others) const {
   return SplitDistances(trips);
 }
 
-// OCD and CCD read nothing that others write: what they take longer, they take
-// because another processor computes as well.
-double Calibration::FitSlowdown(const MachineModel& machine) const {
-  std::vector<double> ratios;
-  for (const BlockSample& sample : blocks_.samples()) {
-    const bool own_data =
-        sample.block == Block::kOcd || sample.block == Block::kCcd;
-    if (!sample.together || !own_data) continue;
-    ratios.push_back(sample.seconds / ModelSeconds(machine, sample));
-  }
-  return ratios.empty() ? 1 : std::max(1.0, Median(ratios));
-}
-
-double Calibration::FitLine(const MachineModel& machine,
-                            const DistanceSplit& split, Distance distance,
-                            double guess) const {
-  const double slowdown = machine.SlowdownOn(2);
-  std::vector<double> seconds;
-  for (const BlockSample& sample : blocks_.samples()) {
-    if (!sample.together || !(sample.counts.lines > 0)) continue;
-    if (split.Of(sample.round_trip) != distance) continue;
-    seconds.push_back(
-        (sample.seconds - slowdown * ModelSeconds(machine, sample)) /
-        sample.counts.lines);
-  }
-  return seconds.empty() ? guess : std::max(0.0, Median(seconds));
-}
-
 MachineModel Calibration::Fit(const DistanceSplit& split) const {
   MachineModel machine;
   const Machine self = DescribeMachine();
@@ -92,28 +126,16 @@ MachineModel Calibration::Fit(const DistanceSplit& split) const {
                                self.version, self.git_hash, self.kernel,
                                self.compiler, self.flags);
   machine.processors = self.processors;
+  const Samples kept = Undisturbed(blocks_.samples(), split);
   for (const int lanes : options_.lanes) {
-    BlockCosts& costs = machine.lanes[lanes];
-    for (int b = 0; b < kNumBlocks; ++b) {
-      std::vector<BlockSample> samples;
-      for (const BlockSample& sample : blocks_.samples()) {
-        if (sample.num_lanes == lanes && !sample.together &&
-            sample.block == static_cast<Block>(b)) {
-          samples.push_back(sample);
-        }
-      }
-      if (samples.empty()) continue;
-      BlockCost& cost = costs[static_cast<std::size_t>(b)];
-      cost = FitBlock(MediansOfGroups(samples));
-      const auto ratios = blocks_.ratios().find({lanes, static_cast<Block>(b)});
-      if (ratios != blocks_.ratios().end()) {
-        cost.spread = SpreadOf(ratios->second);
-      }
-    }
+    machine.lanes[lanes] = FitBlocks(kept, lanes);
+    machine.slowdowns.push_back({.from_processors = 2,
+                                 .lanes = lanes,
+                                 .factor = FitSlowdown(machine, kept, lanes),
+                                 .why = "they compute at the same time"});
   }
-  machine.slowdowns = {{.from_processors = 2, .factor = FitSlowdown(machine)}};
 
-  std::vector<double> trips = waits_.round_trips();
+  const std::vector<double> trips = waits_.round_trips();
   const std::vector<SyncRow> rows = MakeRows(waits_.series(), split);
   for (const Distance distance :
        {Distance::kOnly, Distance::kNear, Distance::kFar}) {
@@ -122,14 +144,14 @@ MachineModel Calibration::Fit(const DistanceSplit& split) const {
       if (split.Of(trip) == distance) own.push_back(trip);
     }
     if (own.empty()) continue;
-    const double one_way = Median(own) / 2;
     machine.conditions.push_back(
         {.name = std::string(Name(distance)),
          .share = static_cast<double>(own.size()) /
                   static_cast<double>(trips.size()),
-         .line = FitLine(machine, split, distance, one_way),
-         .waits = FitWaits(rows, distance, one_way, machine.processors,
-                           options_.hold_time)});
+         .point_line = FitLine(machine, kept, Block::kCs, split, distance),
+         .tip_line = FitLine(machine, kept, Block::kRma, split, distance),
+         .waits = FitWaits(rows, distance, Median(own) / 2,
+                           machine.processors, options_.hold_time)});
   }
   return machine;
 }

@@ -7,6 +7,7 @@
 #include "bench/predict/block_calibration.h"
 #include "bench/predict/machine.h"
 #include "bench/predict/wait_calibration.h"
+#include "bench/sync_conditions.h"
 #include "macrotask/wait_policy.h"
 
 // This machine as a model, measured.
@@ -16,6 +17,7 @@ namespace bench::predict {
 struct CalibrationOptions {
   std::vector<int> lanes = {1, 4};
   std::chrono::nanoseconds hold_time = macrotask::kDefaultHoldTime;
+  int most_tasks = 64;  // of the figures that are to be predicted
 };
 
 class Calibration {
@@ -27,16 +29,13 @@ class Calibration {
   // Measures everything some times, in turn.
   void Round();
 
-  // The split of near and far that all round trips so far, and `others`, show.
+  // The split of near and far that all round trips so far and `others` show.
   DistanceSplit Split(const std::vector<double>& others = {}) const;
-  // What all rounds so far say.
+  // What all rounds so far say; of what was measured while a processor was
+  // taken away or the distance changed, nothing.
   MachineModel Fit(const DistanceSplit& split) const;
 
  private:
-  double FitSlowdown(const MachineModel& machine) const;
-  double FitLine(const MachineModel& machine, const DistanceSplit& split,
-                 Distance distance, double guess) const;
-
   CalibrationOptions options_;
   BlockSampler blocks_;
   WaitSampler waits_;

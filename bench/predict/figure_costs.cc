@@ -121,20 +121,23 @@ void SetCosts(const FigureCase& figure_case, const SystemSizes& sizes,
     const Counter counter(figure_case, sizes, costs.num_lanes, t,
                           costs.num_processors);
     std::array<double, kNumBlocks> seconds{};
+    const double busy = costs.work * counter.Of(Block::kOcd).items;
     for (int b = 0; b < kNumBlocks; ++b) {
       const auto block = static_cast<Block>(b);
       const Counts counts = counter.Of(block);
-      double& own = seconds[static_cast<std::size_t>(b)];
-      own = blocks[static_cast<std::size_t>(b)].Seconds(counts.packs,
-                                                        counts.items);
-      if (block == Block::kOcd) own += costs.work * counts.items;
-      own = own * costs.slowdown + counts.lines * costs.line;
+      const double line =
+          block == Block::kRma ? costs.tip_line : costs.point_line;
+      seconds[static_cast<std::size_t>(b)] =
+          costs.slowdown * blocks[static_cast<std::size_t>(b)].Seconds(
+                               counts.packs, counts.items) +
+          counts.lines * line;
     }
     TaskProgram& task = program->tasks[static_cast<std::size_t>(t)];
     for (std::vector<Step>* part : {&task.head, &task.body, &task.tail}) {
       for (Step& step : *part) {
         if (step.kind != StepKind::kCompute) continue;
         step.seconds = seconds[static_cast<std::size_t>(step.block)];
+        if (step.block == Block::kOcd) step.busy = busy;
       }
     }
   }

@@ -49,7 +49,7 @@ Counts CountsOf(Block block, const FigureCase& figure_case,
 struct RunCosts {
   int num_lanes = 4;
   double work = 0;      // s, for each pair, in OCD
-  double line = 0;      // s, Condition::line
+  double point_line = 0, tip_line = 0;  // s, as in Condition
   double slowdown = 1;  // MachineModel::SlowdownOn()
   int num_processors = 1;
 };

@@ -102,6 +102,14 @@ TaskProgram Fold(std::vector<Step> steps, int num_blocks) {
   return task;
 }
 
+void CheckTraceIsOff() {
+  if (macrotask::TraceClasses() != 0) {
+    throw std::invalid_argument(
+        "MACROTASK_TRACE is set: expected no history trace of a program that "
+        "records its own");
+  }
+}
+
 }  // namespace
 
 std::vector<Step> NameBlocks(const std::vector<Step>& steps, bool first_task) {
@@ -125,18 +133,17 @@ std::vector<Step> NameBlocks(const std::vector<Step>& steps, bool first_task) {
   return named;
 }
 
-void PrepareTrace() {
-  if (macrotask::TraceClasses() != 0) {
-    throw std::invalid_argument(
-        "MACROTASK_TRACE is set: expected no history trace of a program that "
-        "records its own");
-  }
-  constexpr std::size_t kRecords = std::size_t{1} << 17;
-  macrotask::SetTraceSize(kRecords);
+void PrepareTrace(int most_tasks) {
+  CheckTraceIsOff();
+  // What a task leaves in the blocks that are read, and in a calibration.
+  constexpr std::size_t kRecordsPerTask = 64;
+  constexpr std::size_t kLeastRecords = 4096;
+  macrotask::SetTraceSize(std::max(
+      kLeastRecords, kRecordsPerTask * static_cast<std::size_t>(most_tasks)));
 }
 
 Program ReadFigure(const FigureCase& figure_case) {
-  if (macrotask::TraceClasses() != 0) PrepareTrace();
+  CheckTraceIsOff();
   const integrators::BlockMethod& method = figure_case.method;
   integrators::CheckNumSteps(method, figure_case.num_steps);
   const int num_blocks =

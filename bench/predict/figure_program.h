@@ -36,8 +36,8 @@ Program ReadFigure(const FigureCase& figure_case);
 std::vector<Step> NameBlocks(const std::vector<Step>& steps, bool first_task);
 
 // Throws std::invalid_argument, one sentence, if the history trace records
-// already; else makes its rings large enough for all that this folder records.
-// Before anything is recorded.
-void PrepareTrace();
+// already; else makes its rings large enough for figures of so many tasks, and
+// no larger, so that they stay in the cache. Before anything is recorded.
+void PrepareTrace(int most_tasks);
 
 }  // namespace bench::predict

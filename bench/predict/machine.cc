@@ -37,10 +37,13 @@ double BarrierCost::Seconds(int num_tasks) const {
   return two + further * (num_tasks - 2);
 }
 
-double MachineModel::SlowdownOn(int num_processors) const {
+double MachineModel::SlowdownOn(int num_processors, int num_lanes) const {
   double factor = 1;
   for (const Slowdown& slowdown : slowdowns) {
-    if (num_processors >= slowdown.from_processors) factor = slowdown.factor;
+    const bool of_width = slowdown.lanes == 0 || slowdown.lanes == num_lanes;
+    if (of_width && num_processors >= slowdown.from_processors) {
+      factor = slowdown.factor;
+    }
   }
   return factor;
 }

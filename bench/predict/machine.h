@@ -72,7 +72,9 @@ struct WaitCost {
 struct Condition {
   std::string name;  // "near", "far"; "" if there is only one
   double share = 1;  // of the time
-  double line = 0;   // s, to fetch a cache line that another processor wrote
+  // s, to fetch a cache line that another processor wrote: of the derivatives
+  // at another point, in CS, and of the tip of a chain, in RMA.
+  double point_line = 0, tip_line = 0;
   std::map<macrotask::WaitKind, WaitCost> waits;
 
   friend bool operator==(const Condition&, const Condition&) = default;
@@ -82,6 +84,7 @@ struct Condition {
 // share something, if only the machine with other users.
 struct Slowdown {
   int from_processors = 2;
+  int lanes = 0;  // with this width; 0: with all
   double factor = 1;
   std::string why = {};  // what they share, for whoever reads it
 
@@ -98,7 +101,7 @@ struct MachineModel {
   std::vector<Condition> conditions;
   std::vector<Slowdown> slowdowns;
 
-  double SlowdownOn(int num_processors) const;
+  double SlowdownOn(int num_processors, int num_lanes) const;
   // Throws std::invalid_argument, one sentence, if the machine has no such.
   const BlockCosts& BlocksOf(int num_lanes) const;
   int widest_lanes() const { return lanes.empty() ? 1 : lanes.rbegin()->first; }

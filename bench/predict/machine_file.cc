@@ -313,11 +313,12 @@ std::map<WaitKind, WaitCost> ReadWaits(const Value& value) {
 }
 
 Condition ReadCondition(const Value& value) {
-  value.ExpectObject({"name", "share", "line", "waits"});
+  value.ExpectObject({"name", "share", "point_line", "tip_line", "waits"});
   const Value share = value["share"];
   return {.name = value["name"].TextOrNone(),
           .share = share.is_missing() ? 1 : share.Number(0, "a share, 0 to 1"),
-          .line = Time(value["line"]).value_or(0),
+          .point_line = Time(value["point_line"]).value_or(0),
+          .tip_line = Time(value["tip_line"]).value_or(0),
           .waits = ReadWaits(value["waits"])};
 }
 
@@ -340,14 +341,23 @@ std::vector<Condition> ReadConditions(const Value& value) {
   return conditions;
 }
 
-Slowdown ReadSlowdown(const Value& value, const Slowdown* before) {
-  value.ExpectObject({"from_processors", "factor", "why"});
+Slowdown ReadSlowdown(const Value& value,
+                      const std::vector<Slowdown>& others) {
+  value.ExpectObject({"from_processors", "lanes", "factor", "why"});
   const Value from = value["from_processors"], factor = value["factor"];
+  const Value lanes = value["lanes"];
   Slowdown slowdown = {.why = value["why"].TextOrNone()};
   if (!from.is_missing()) slowdown.from_processors = NumProcessors(from);
-  if (before != nullptr &&
-      slowdown.from_processors <= before->from_processors) {
-    from.Expect("more processors than in the slowdown before");
+  if (!lanes.is_missing()) {
+    const double width = lanes.Number(0, "0, 1 or 4");
+    if (width != 0 && width != 1 && width != 4) lanes.Expect("0, 1 or 4");
+    slowdown.lanes = static_cast<int>(width);
+  }
+  for (const Slowdown& before : others) {
+    if (before.lanes == slowdown.lanes &&
+        slowdown.from_processors <= before.from_processors) {
+      from.Expect("more processors than in the slowdown before");
+    }
   }
   if (!factor.is_missing()) {
     slowdown.factor = factor.Number(1, "a factor of 1 or more");
@@ -358,8 +368,7 @@ Slowdown ReadSlowdown(const Value& value, const Slowdown* before) {
 std::vector<Slowdown> ReadSlowdowns(const Value& value) {
   std::vector<Slowdown> slowdowns;
   for (const Value& element : value.Elements()) {
-    slowdowns.push_back(
-        ReadSlowdown(element, slowdowns.empty() ? nullptr : &slowdowns.back()));
+    slowdowns.push_back(ReadSlowdown(element, slowdowns));
   }
   return slowdowns;
 }
@@ -405,7 +414,8 @@ Json ConditionJson(const Condition& condition) {
   }
   return {{"name", condition.name},
           {"share", condition.share},
-          {"line", condition.line},
+          {"point_line", condition.point_line},
+          {"tip_line", condition.tip_line},
           {"waits", waits}};
 }
 
@@ -419,6 +429,7 @@ Json MachineJson(const MachineModel& machine) {
   }
   for (const Slowdown& slowdown : machine.slowdowns) {
     json["slowdowns"].push_back({{"from_processors", slowdown.from_processors},
+                                 {"lanes", slowdown.lanes},
                                  {"factor", slowdown.factor},
                                  {"why", slowdown.why}});
   }

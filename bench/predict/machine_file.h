@@ -18,10 +18,11 @@
 //         ... "start", "CS", "RMA", "CCD", "shift"
 //       }
 //     },
-//     "slowdowns": [{"from_processors": 8, "factor": 1.07, "why": "shared"}],
+//     "slowdowns": [{"from_processors": 8, "lanes": 1, "factor": 1.07,
+//                    "why": "shared"}],
 //     "conditions": [
 //       {
-//         "name": "near", "share": 0.6, "line": 4e-8,
+//         "name": "near", "share": 0.6, "point_line": 2e-8, "tip_line": 4e-9,
 //         "waits": {
 //           "hold": {
 //             "barrier": {"two": 1e-7, "further": 5e-8, "round": 1e-7,
@@ -47,7 +48,8 @@ namespace bench::predict {
 // JSON, has members that nobody knows, misses some, or has figures that no
 // machine has: no processors, lanes that are neither 1 nor 4, negative or
 // infinite times, spreads that do not ascend or are not positive, shares that do
-// not add up to 1 (to 1e-6), slowdowns below 1 or not in ascending order, two
+// not add up to 1 (to 1e-6), slowdowns below 1 or, of one width of lanes,
+// not in ascending order, two
 // conditions of one name, no condition, a condition without waits.
 MachineModel ParseMachine(std::string_view text, std::string_view name);
 

@@ -18,7 +18,8 @@ MeasuredRun::MeasuredRun(const RunCase& run_case, const LiftCase& lift,
                                 .partition = run_case.figure.partition,
                                 .wait = wait}) {}
 
-double MeasuredRun::Run() {
+double MeasuredRun::Measure() {
+  WarmUp([this] { integration_.RunFrom(lift_.Planned()); });
   return integration_.RunFrom(lift_.Planned()).seconds();
 }
 

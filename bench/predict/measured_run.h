@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <chrono>
 
 #include "bench/lift_case.h"
 #include "bench/predict/marked_system.h"
@@ -9,6 +9,18 @@
 #include "integrators/integration.h"
 
 namespace bench::predict {
+
+// Calls `run` again and again for 2 ms: the caches are warm, and a virtual
+// machine has its processors where they stay while they compute. After a sleep
+// they may share a core for a while.
+template <typename Run>
+void WarmUp(const Run& run) {
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
+  do {
+    run();
+  } while (std::chrono::steady_clock::now() < end);
+}
 
 // The run of a case on this machine. Made with as many processors in use as it
 // is to run on (macrotask::SetMaxProcessors).
@@ -19,8 +31,8 @@ class MeasuredRun {
   MeasuredRun(const RunCase& run_case, const LiftCase& lift,
               macrotask::WaitPolicy wait, double delay_rate);
 
-  // Seconds of one run, started from the plan.
-  double Run();
+  // Seconds of one run, started from the plan, behind others that warm up.
+  double Measure();
 
  private:
   const LiftCase& lift_;

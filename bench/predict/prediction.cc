@@ -95,7 +95,7 @@ Prediction Predictor::Replicate(
   prediction.limits =
       CalcLimits(program, run_case.processors, TaskPlacement::kPinned);
 
-  costs.slowdown = machine_.SlowdownOn(used);
+  costs.slowdown = machine_.SlowdownOn(used, run_case.num_lanes);
   SimulationOptions options = {.processors = run_case.processors,
                                .spreads = SpreadsOf(blocks)};
   const WaitKind wait =
@@ -105,7 +105,8 @@ Prediction Predictor::Replicate(
   for (std::size_t r = 0; r < conditions.size(); ++r) {
     if (conditions[r] != set) {
       set = conditions[r];
-      costs.line = set->line;
+      costs.point_line = set->point_line;
+      costs.tip_line = set->tip_line;
       SetCosts(run_case.figure, options_.sizes, blocks, costs, &program);
       // A task alone never waits.
       if (program.num_tasks() > 1) options.wait = machine_.WaitOf(*set, wait);

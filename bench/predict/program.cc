@@ -16,7 +16,8 @@ std::array<double, kNumBlocks> WorkByBlock(const Program& program) {
     const auto add = [&](const std::vector<Step>& steps, double times) {
       for (const Step& step : steps) {
         if (step.kind != StepKind::kCompute) continue;
-        seconds[static_cast<std::size_t>(step.block)] += times * step.seconds;
+        seconds[static_cast<std::size_t>(step.block)] +=
+            times * (step.seconds + step.busy);
       }
     };
     add(task.head, 1);

@@ -31,15 +31,16 @@ struct Step {
   Block block = Block::kOther;  // of kCompute
   int object = 0;      // index of the barrier, event, lock, or task
   double seconds = 0;  // of kCompute, median
+  double busy = 0;     // of kCompute, on top of that: never varies
 
   friend bool operator==(const Step&, const Step&) = default;
 };
 
 inline Step Compute(Block block, double seconds = 0) {
-  return {StepKind::kCompute, block, 0, seconds};
+  return {StepKind::kCompute, block, 0, seconds, 0};
 }
 inline Step Sync(StepKind kind, int object) {
-  return {kind, Block::kOther, object, 0};
+  return {kind, Block::kOther, object, 0, 0};
 }
 
 // `head`, then `body` so many times, then `tail`.

@@ -243,10 +243,10 @@ class Simulation {
   double Draw(const Step& step, Task* task) const {
     const Spread& spread =
         options_.spreads[static_cast<std::size_t>(step.block)];
-    if (spread.empty()) return step.seconds;
+    if (spread.empty()) return step.busy + step.seconds;
     // 53 bits, as a double has them: the same everywhere.
     const double u = static_cast<double>(task->random() >> 11) * 0x1p-53;
-    return step.seconds * Quantile(spread, u);
+    return step.busy + step.seconds * Quantile(spread, u);
   }
 
   void End(int t) {

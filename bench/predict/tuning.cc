@@ -89,9 +89,8 @@ void Measure(int repetitions, std::chrono::nanoseconds hold_time,
   for (int r = 0; r < repetitions; ++r) {
     show("measure", r, repetitions);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      runs[i]->Run();
       const MethodSweep& sweep = *(*finalists)[i].sweep;
-      (*finalists)[i].measured.push_back(runs[i]->Run() *
+      (*finalists)[i].measured.push_back(runs[i]->Measure() *
                                          sweep.steps_at_target /
                                          WholeSteps(sweep));
     }

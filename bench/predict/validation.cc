@@ -29,7 +29,7 @@ struct Run {
   RunCase run_case;
   std::unique_ptr<MeasuredRun> run;
   struct Sample {
-    double round_trip;
+    SampleConditions conditions;
     double seconds;
   };
   std::vector<Sample> samples;
@@ -68,7 +68,7 @@ class CaseList {
 }  // namespace
 
 std::vector<RunCase> ValidationCases() {
-  const std::vector<double> works = {0, 10, 30, 100};  // us a block
+  const std::vector<double> works = {0, 10, 100};  // us a block
   const std::vector<double> few_works = {0, 100};
   const std::vector<WaitKind> logical = {WaitKind::kLogical};
   CaseList list;
@@ -120,52 +120,49 @@ class Measurement {
 
   void Repeat() {
     for (Run& run : runs_) {
-      const Conditions before = probe_.Look();
+      SampleConditions conditions = {.before = probe_.Look(), .after = {}};
       double seconds;
       {
         const ProcessorsFor use(run.run_case.processors);
-        run.run->Run();
-        seconds = run.run->Run();
+        seconds = run.run->Measure();
       }
-      const Conditions after = probe_.Look();
-      trips_.push_back(before.round_trip);
-      // Where the distance changed, `split` will tell.
-      const bool changed = before.round_trip > after.round_trip * kLeastRatio ||
-                           after.round_trip > before.round_trip * kLeastRatio;
-      if (after.stolen > before.stolen || changed) {
-        ++disturbed_;
-      } else {
-        run.samples.push_back({before.round_trip, seconds});
-      }
+      conditions.after = probe_.Look();
+      round_trips_.push_back(conditions.before.round_trip);
+      run.samples.push_back({conditions, seconds});
     }
   }
 
   const std::vector<Run>& runs() const { return runs_; }
-  const std::vector<double>& trips() const { return trips_; }
-  int disturbed() const { return disturbed_; }
+  const std::vector<double>& round_trips() const { return round_trips_; }
 
  private:
   LiftCase lift_;
   ConditionsProbe probe_;
   std::vector<Run> runs_;
-  std::vector<double> trips_;
-  int disturbed_ = 0;
+  std::vector<double> round_trips_;
 };
 
 // Rows of a run, one for each condition in which it was measured often enough.
 void AddRows(const Run& run, const DistanceSplit& split, Predictor* predictor,
-             std::vector<ValidationRow>* rows) {
-  constexpr std::size_t kLeast = 4;
+             Validation* validation) {
+  constexpr std::size_t kLeast = 10;
   const bool alone = run.run_case.processors == 1;
+  std::vector<Run::Sample> kept;
+  for (const Run::Sample& sample : run.samples) {
+    const auto disturbance = JudgeSample(sample.conditions, split);
+    if (disturbance == Disturbance::kNone) kept.push_back(sample);
+  }
+  validation->disturbed += static_cast<int>(run.samples.size() - kept.size());
   for (const Condition& condition : predictor->machine().conditions) {
     std::vector<double> seconds;
-    for (const Run::Sample& sample : run.samples) {
-      if (alone || Name(split.Of(sample.round_trip)) == condition.name) {
+    for (const Run::Sample& sample : kept) {
+      const double trip = sample.conditions.before.round_trip;
+      if (alone || Name(split.Of(trip)) == condition.name) {
         seconds.push_back(sample.seconds);
       }
     }
     if (seconds.size() < kLeast) continue;
-    rows->push_back(
+    validation->rows.push_back(
         {.run_case = run.run_case,
          .condition = alone ? "" : condition.name,
          .measured = Median(seconds),
@@ -186,13 +183,12 @@ Validation Validate(const CalibrationOptions& options, int rounds,
     calibration.Round();
     for (int r = 0; r < kRepetitions; ++r) measurement.Repeat();
   }
-  const DistanceSplit split = calibration.Split(measurement.trips());
+  const DistanceSplit split = calibration.Split(measurement.round_trips());
   Validation validation;
   validation.machine = calibration.Fit(split);
-  validation.disturbed = measurement.disturbed();
   Predictor predictor(validation.machine, {.replications = 10});
   for (const Run& run : measurement.runs()) {
-    AddRows(run, split, &predictor, &validation.rows);
+    AddRows(run, split, &predictor, &validation);
   }
   return validation;
 }

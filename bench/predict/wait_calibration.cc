@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
-#include <string>
+#include <string_view>
+#include <utility>
 
 #include "bench/sync_plan.h"
 
@@ -15,6 +16,8 @@ using macrotask::WaitKind;
 
 // As long as the blocks of the computation, or so.
 constexpr double kWork = 0.5;  // us
+// Of tasks that share processors: what a turn costs must show beside the work.
+constexpr double kNoWork = 0;  // us
 // Longer than to fall asleep, for tasks that sleep at once.
 constexpr double kLongWork = 10;  // us
 constexpr int kFewTasks = 4, kManyTasks = 16;
@@ -24,24 +27,40 @@ constexpr int kFewTasks = 4, kManyTasks = 16;
 constexpr double kFallAsleep = 1e-6;  // s
 
 constexpr const char* kBarsync = "BARSYNC";
+constexpr const char* kCounter = "BARSYNC, counter";
 constexpr const char* kDissemination = "BARSYNC, dissemination";
 constexpr const char* kTree = "BARSYNC, tree";
 constexpr const char* kEvent = "EVPOST to EVWAIT";
+constexpr const char* kFutex = "futex wake to running";
+
+bool IsCrowded(const Variant& variant) { return variant.num_tasks > 2; }
 
 bool IsWanted(const Variant& variant) {
-  if (variant.construct == kBarsync) {
-    const bool sleeps = variant.by == Name(WaitKind::kBlock);
-    if (variant.num_tasks > 2) {
-      return variant.work == kWork && variant.skew == Skew::kZero;
-    }
-    return sleeps ? variant.work == kLongWork
-                  : variant.work == kWork && variant.skew == Skew::kZero;
+  if (variant.construct == kFutex) return true;
+  if (IsCrowded(variant)) {
+    return variant.construct == kBarsync && variant.work == kNoWork;
   }
-  const bool for_two = variant.num_tasks == 2 && variant.work == kWork &&
-                       variant.skew == Skew::kZero;
-  return for_two && (variant.construct == kEvent ||
-                     variant.construct == kDissemination ||
-                     variant.construct == kTree);
+  const bool sleeps = variant.by == Name(WaitKind::kBlock);
+  if (sleeps) return variant.construct == kBarsync && variant.work == kLongWork;
+  const bool anonymous = variant.construct == kBarsync;
+  const bool logical = variant.by == Name(WaitKind::kLogical);
+  return variant.work == kWork &&
+         (anonymous ? logical
+                    : variant.construct == kEvent ||
+                          variant.construct == kCounter ||
+                          variant.construct == kDissemination ||
+                          variant.construct == kTree);
+}
+
+// Those that make processors sleep or change stacks come last: what follows
+// them at once is slower.
+bool ComesLater(const Variant& a, const Variant& b) {
+  const auto rank = [](const Variant& variant) {
+    const bool sleeps = variant.by == Name(WaitKind::kBlock) ||
+                        variant.construct == kFutex;
+    return sleeps ? 2 : IsCrowded(variant) ? 1 : 0;
+  };
+  return rank(a) < rank(b);
 }
 
 // Looks rows up, at one distance if possible.
@@ -50,20 +69,27 @@ class Rows {
   Rows(const std::vector<SyncRow>& rows, Distance distance)
       : rows_(rows), distance_(distance) {}
 
-  std::optional<double> Overhead(const char* construct, WaitKind wait,
-                                 int num_tasks, Skew skew) const {
+  std::optional<double> Overhead(const char* construct, std::string_view by,
+                                 int num_tasks) const {
     const SyncRow* found = nullptr;
     for (const SyncRow& row : rows_) {
       const Variant& variant = row.variant;
-      if (variant.construct != construct || variant.by != Name(wait) ||
-          variant.num_tasks != num_tasks || variant.skew != skew ||
-          !row.overhead) {
+      if (variant.construct != construct || variant.by != by ||
+          variant.num_tasks != num_tasks || !row.overhead) {
         continue;
       }
       if (found == nullptr || row.distance == distance_) found = &row;
     }
     if (found == nullptr) return {};
     return std::max(0.0, found->overhead->median);
+  }
+
+  // Of two tasks that do not sleep.
+  std::optional<double> Awake(const char* construct) const {
+    const auto hold = Overhead(construct, Name(WaitKind::kHold), 2);
+    const auto spin = Overhead(construct, Name(WaitKind::kSpin), 2);
+    if (hold && spin) return (*hold + *spin) / 2;
+    return hold ? hold : spin;
   }
 
  private:
@@ -75,8 +101,8 @@ class Rows {
 // would be negative.
 void FitCrowded(const Rows& rows, WaitKind wait, int processors,
                 WaitCost* cost) {
-  const auto few = rows.Overhead(kBarsync, wait, kFewTasks, Skew::kZero);
-  const auto many = rows.Overhead(kBarsync, wait, kManyTasks, Skew::kZero);
+  const auto few = rows.Overhead(kBarsync, Name(wait), kFewTasks);
+  const auto many = rows.Overhead(kBarsync, Name(wait), kManyTasks);
   if (!few || !many) return;
   const double slope = (*many - *few) / (kManyTasks - kFewTasks);
   cost->shared_wake = std::max(0.0, *few - slope * kFewTasks);
@@ -84,23 +110,27 @@ void FitCrowded(const Rows& rows, WaitKind wait, int processors,
                processors;
 }
 
-WaitCost FitWait(const Rows& rows, WaitKind wait, double line, int processors,
-                 std::chrono::nanoseconds hold_time) {
-  const WaitKind like =
-      wait == WaitKind::kBlock ? WaitKind::kHold : wait;
+WaitCost FitWait(const Rows& rows, WaitKind wait, double one_way,
+                 int processors, std::chrono::nanoseconds hold_time) {
+  const std::string_view logical = Name(WaitKind::kLogical);
   WaitCost cost;
-  cost.post = line;
-  cost.barrier.two = rows.Overhead(kBarsync, like, 2, Skew::kZero).value_or(0);
-  cost.barrier.further = line;
-  cost.barrier.round = rows.Overhead(kDissemination, like, 2, Skew::kZero);
-  cost.barrier.level = rows.Overhead(kTree, like, 2, Skew::kZero);
-  cost.event = rows.Overhead(kEvent, like, 2, Skew::kZero).value_or(0);
-  cost.lock = cost.start = cost.event;
+  cost.post = one_way;
+  cost.barrier.further = one_way;
   FitCrowded(rows, wait, processors, &cost);
-  if (wait == WaitKind::kSpin || wait == WaitKind::kLogical) return cost;
-  const WaitKind sleeps = WaitKind::kBlock;
-  cost.wake = rows.Overhead(kBarsync, sleeps, 2, Skew::kZero).value_or(0);
-  cost.waker = rows.Overhead(kBarsync, sleeps, 2, Skew::kLate).value_or(0);
+  if (wait == WaitKind::kLogical) {
+    cost.barrier.two = rows.Overhead(kBarsync, logical, 2).value_or(0);
+    cost.event = rows.Overhead(kEvent, logical, 2).value_or(0);
+    cost.lock = cost.start = cost.event;
+    return cost;
+  }
+  cost.barrier.two = rows.Awake(kCounter).value_or(0);
+  cost.barrier.round = rows.Awake(kDissemination);
+  cost.barrier.level = rows.Awake(kTree);
+  cost.event = rows.Awake(kEvent).value_or(0);
+  cost.lock = cost.start = cost.event;
+  if (wait == WaitKind::kSpin) return cost;
+  cost.wake = rows.Overhead(kBarsync, Name(WaitKind::kBlock), 2).value_or(0);
+  cost.waker = rows.Overhead(kFutex, "Linux", 2).value_or(0);
   cost.sleeps_after = wait == WaitKind::kBlock
                           ? kFallAsleep
                           : std::chrono::duration<double>(hold_time).count();
@@ -111,15 +141,16 @@ WaitCost FitWait(const Rows& rows, WaitKind wait, double line, int processors,
 
 WaitSampler::WaitSampler(std::chrono::nanoseconds hold_time) {
   SyncAxes axes;
-  axes.families = {SyncFamily::kBarrier, SyncFamily::kEvent};
   axes.num_tasks = {2, kFewTasks, kManyTasks};
+  axes.families = {SyncFamily::kBarrier, SyncFamily::kEvent};
   axes.hold_time = hold_time;
-  axes.works = {kWork, kLongWork};
-  axes.skews = {Skew::kZero, Skew::kLate};
+  axes.works = {kNoWork, kWork, kLongWork};
   std::vector<Variant> all;
   AddConstructs(axes, &all);
+  AddLimits(axes, &all);
   std::copy_if(all.begin(), all.end(), std::back_inserter(variants_),
                &IsWanted);
+  std::stable_sort(variants_.begin(), variants_.end(), &ComesLater);
 }
 
 void WaitSampler::Round(int repetitions) {
@@ -146,13 +177,13 @@ std::vector<double> WaitSampler::round_trips() const {
 }
 
 std::map<WaitKind, WaitCost> FitWaits(const std::vector<SyncRow>& rows,
-                                      Distance distance, double line,
+                                      Distance distance, double one_way,
                                       int processors,
                                       std::chrono::nanoseconds hold_time) {
   const Rows of(rows, distance);
   std::map<WaitKind, WaitCost> waits;
   for (const WaitKind wait : AllWaitKinds()) {
-    waits.emplace(wait, FitWait(of, wait, line, processors, hold_time));
+    waits.emplace(wait, FitWait(of, wait, one_way, processors, hold_time));
   }
   return waits;
 }

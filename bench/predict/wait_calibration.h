@@ -32,19 +32,20 @@ class WaitSampler {
 // The costs of every way to wait at one distance of the processors, out of the
 // rows:
 //
-//   barrier.two, event   overhead of BARSYNC, of EVPOST to EVWAIT, 2 tasks
-//   barrier.further      half a round trip, `line`
-//   barrier.round, level overhead of the dissemination and the tree of 2 tasks
-//   wake                 overhead of a BARSYNC that always sleeps (block), of
-//                        two tasks that come at once: each is woken in turn
-//   waker                the same of a task that comes late and wakes the other
-//   turn, shared_wake    overhead of BARSYNC over the number of tasks, n, with
-//                        more of them than processors, P: n / P turn +
-//                        shared_wake
+//   barrier.two, event     overhead of BARSYNC, of EVPOST to EVWAIT, 2 tasks
+//   barrier.further, post  half a round trip, `one_way`
+//   barrier.round, level   overhead of dissemination and of the tree of 2 tasks
+//   wake                   overhead of a BARSYNC that always sleeps (block), of
+//                          two tasks that come at once: each is woken in turn
+//   waker                  overhead of "futex wake to running"
+//   turn, shared_wake      overhead of BARSYNC over the number of tasks, n, with
+//                          more of them than processors, P: n / P turn +
+//                          shared_wake
 //
+// While nobody sleeps, hold and spin do the same: their rows count as one.
 // A row that is missing at this distance is taken from the other one.
 std::map<macrotask::WaitKind, WaitCost> FitWaits(
-    const std::vector<SyncRow>& rows, Distance distance, double line,
+    const std::vector<SyncRow>& rows, Distance distance, double one_way,
     int processors, std::chrono::nanoseconds hold_time);
 
 }  // namespace bench::predict

@@ -106,9 +106,9 @@ TEST(MachineText, KeepsEveryBitOfAFigure) {
 
 TEST(MachineText, KeepsTheSignOfNothing) {
   MachineModel machine = MinimalMachine();
-  machine.conditions[0].line = -0.0;
+  machine.conditions[0].point_line = -0.0;
   const MachineModel back = ParseMachine(MachineText(machine), "text");
-  EXPECT_TRUE(std::signbit(back.conditions[0].line));
+  EXPECT_TRUE(std::signbit(back.conditions[0].tip_line));
 }
 
 TEST(MachineText, LeavesOutWhatThereIsNot) {
@@ -150,7 +150,7 @@ constexpr const char* kExample = R"({
     "slowdowns": [{"from_processors": 8, "factor": 1.07, "why": "shared"}],
     "conditions": [
       {
-        "name": "near", "share": 1, "line": 4e-8,
+        "name": "near", "share": 1, "point_line": 4e-8,
         "waits": {
           "hold": {
             "barrier": {"two": 1e-7, "further": 5e-8, "round": 2e-7,
@@ -257,7 +257,7 @@ TEST(ParseMachine, RefusesMembersThatNobodyKnows) {
        "an unknown member at slowdowns[0].because: expected one of "
        "from_processors, factor, why"},
       {"/conditions/0/lines", a,
-       "an unknown member at conditions[0].lines: expected one of name, share, "
+       "an unknown member at conditions[0].tip_lines: expected one of name, share, "
        "line, waits"},
       {"/conditions/0/waits/auto", "{}",
        "an unknown member at conditions[0].waits.auto: expected one of block, "
@@ -301,7 +301,7 @@ TEST(ParseMachine, RefusesTimesThatAreNone) {
       {"/lanes/1/CS", R"({"call": "1"})",
        "\"1\" at lanes.1.CS.call: expected a time in seconds, 0 or more"},
       {"/conditions/0/line", "-1",
-       "-1 at conditions[0].line: expected a time in seconds, 0 or more"},
+       "-1 at conditions[0].tip_line: expected a time in seconds, 0 or more"},
       {"/conditions/0/waits/hold/sleeps_after", "null",
        "null at conditions[0].waits.hold.sleeps_after: expected a time in "
        "seconds, 0 or more"},
@@ -406,8 +406,8 @@ TEST(ParseMachine, RefusesNumbersBeyondAllDoubles) {
   EXPECT_EQ(ErrorOf(R"({"processors": 1e999})"),
             "m.json has a number beyond all doubles at processors: expected a "
             "finite one");
-  EXPECT_EQ(ErrorOf(R"({"conditions": [{}, [], {"line": [0, -1e999]}]})"),
-            "m.json has a number beyond all doubles at conditions[2].line[1]: "
+  EXPECT_EQ(ErrorOf(R"({"conditions": [{}, [], {"tip_line": [0, -1e999]}]})"),
+            "m.json has a number beyond all doubles at conditions[2].tip_line[1]: "
             "expected a finite one");
 }
 
