@@ -49,9 +49,9 @@ std::vector<integrators::BlockMethod> MethodsOf(
   for (const std::string& name : names) {
     methods.push_back(integrators::ParseBlockMethod(name));
   }
-  const bool has_baseline = std::any_of(
-      methods.begin(), methods.end(),
-      [](const auto& method) { return method.name() == "B1PC5"; });
+  const bool has_baseline =
+      std::any_of(methods.begin(), methods.end(),
+                  [](const auto& method) { return method.name() == "B1PC5"; });
   if (!has_baseline) methods.push_back(integrators::B1PC5());
   return methods;
 }
@@ -179,9 +179,9 @@ predict::MachineModel PredictCommand::GetMachine() const {
     Progress progress;
     predict::CalibrationOptions options = CalibrationWith(hold_time_us_);
     options.most_tasks = std::max(options.most_tasks, most_tasks);
-    machine = predict::Calibrate(
-        options,
-        [&](int done, int all) { progress.Show("calibrate", done, all); });
+    machine = predict::Calibrate(options, [&](int done, int all) {
+      progress.Show("calibrate", done, all);
+    });
   } else {
     machine = predict::ReadMachine(machine_);
     predict::PrepareTrace(most_tasks);
@@ -214,7 +214,8 @@ std::string PredictCommand::Table(const predict::MachineModel& machine) const {
   const auto rows = predict::PredictRows(options, sweeps, &predictor);
   if (!csv_.empty()) WriteOutput(csv_, predict::TableCsv(rows));
   const std::string lanes = fmt::format(
-      "Predicted: the lift of {} arms to an error of 1e-6 m, {} lane{}, {}.\n\n",
+      "Predicted: the lift of {} arms to an error of 1e-6 m, {} lane{}, "
+      "{}.\n\n",
       num_chains_, options.num_lanes, options.num_lanes == 1 ? "" : "s",
       macrotask::Name(wait_));
   return MachineHeader(machine) + lanes +
@@ -226,17 +227,15 @@ std::string PredictCommand::OfTrace(
   const TraceHistory history = MakeHistory(macrotask::ReadTrace(trace_));
   // Records were written as here, unless it was another machine.
   const double record = machine_.empty() ? predict::MeasureRecord() : 0;
-  const predict::Program program =
-      predict::ProgramOf(history, trace_, record);
+  const predict::Program program = predict::ProgramOf(history, trace_, record);
   predict::PredictorOptions options;
   options.replications = replications_;
   options.seed = static_cast<std::uint64_t>(seed_);
   predict::Predictor predictor(machine, options);
-  const auto wait = wait_ == macrotask::WaitKind::kAuto
-                        ? macrotask::WaitKind::kHold
-                        : wait_;
-  const auto rows = predict::PredictTrace(program, processors_, wait,
-                                          placement_, &predictor);
+  const auto wait =
+      wait_ == macrotask::WaitKind::kAuto ? macrotask::WaitKind::kHold : wait_;
+  const auto rows =
+      predict::PredictTrace(program, processors_, wait, placement_, &predictor);
   return MachineHeader(machine) +
          predict::TracePredictionText(
              program, history.UsOf(history.end - history.begin) * 1e-6, rows);
@@ -265,8 +264,7 @@ void PredictCommand::Run() const {
     predict::ProgramOf(MakeHistory(macrotask::ReadTrace(trace_)), trace_, 0);
   }
   const predict::MachineModel machine = GetMachine();
-  const std::string text =
-      trace_.empty() ? Table(machine) : OfTrace(machine);
+  const std::string text = trace_.empty() ? Table(machine) : OfTrace(machine);
   if (csv_ != "-" && write_machine_ != "-") WriteOutput("-", text);
 }
 
@@ -285,13 +283,13 @@ void TuneCommand::Add(CLI::App* app) {
 void TuneCommand::Run() const {
   if (!write_.empty()) CheckOutput(write_);
   Progress progress;
-  const predict::Tuning tuning = predict::Tune(
-      {.methods = MethodsOf(methods_),
-       .calibration = CalibrationWith(hold_time_us_),
-       .repetitions = repetitions_},
-      [&](const char* what, int done, int all) {
-        progress.Show(what, done, all);
-      });
+  const predict::Tuning tuning =
+      predict::Tune({.methods = MethodsOf(methods_),
+                     .calibration = CalibrationWith(hold_time_us_),
+                     .repetitions = repetitions_},
+                    [&](const char* what, int done, int all) {
+                      progress.Show(what, done, all);
+                    });
   if (!write_.empty()) {
     WriteOutput(write_,
                 predict::SimulateOptionsText(predict::WinnerOf(tuning)));

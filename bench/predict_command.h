@@ -41,7 +41,7 @@ class PredictCommand {
   int replications_ = 40;
   bool dedicated_ = false;
   bool validate_ = false;
-  int rounds_ = 10;
+  int rounds_ = 40;
   predict::TaskPlacement placement_ = predict::TaskPlacement::kFree;
   std::string machine_, write_machine_, trace_, csv_;
 };

@@ -24,9 +24,22 @@ using dynamics::ClosedChainSystem;
 using integrators::Partition;
 using MarkedSystem = SystemWith<ClosedChainSystem>;
 
-// Six points make shares of 1, 2, 3 and 6, and up to two registers of them.
-constexpr int kPoints = 6, kValues = 7;
-constexpr int kSteps = kValues - 1 + 10 * kPoints;
+// Methods that are good for nothing else: blocks of 1, 2, 3 and 5 points, so
+// that there is more than one register of pairs and of points.
+std::vector<integrators::BlockMethod> Methods() {
+  std::vector<integrators::BlockMethod> methods;
+  for (const auto& [points, values] :
+       {std::pair{1, 4}, {2, 4}, {3, 5}, {5, 6}}) {
+    methods.push_back(integrators::MakeBlockMethod(points, values));
+  }
+  return methods;
+}
+
+// Of less the clock and what a record takes leave no ratios.
+constexpr double kLeastTold = 50e-9;  // s
+
+// Room for the start and for ten blocks or more of all of them.
+constexpr int kSteps = 60;
 
 void StartRecording() {
   using macrotask::TraceClass;
@@ -66,75 +79,47 @@ double MeasureRecord() {
 }
 
 struct BlockSampler::Run {
-  Run(const LiftCase& of_lift, const FigureCase& of_case, int of_lanes,
-      int of_processors)
-      : lift(of_lift),
-        figure_case(of_case),
-        num_lanes(of_lanes),
-        processors(of_processors),
-        system(lift.lift().model, lift.torques(),
-               static_cast<dynamics::Lanes>(of_lanes)),
-        marked(system, {.marks = true}),
-        integration(marked,
-                    {.method = of_case.method,
-                     .step = of_lift.step(),
-                     .num_steps = of_lift.num_steps(),
-                     .figure = of_case.figure,
-                     .partition = of_case.partition,
-                     .wait = of_processors == 1
-                                 ? macrotask::WaitPolicy::Logical()
-                                 : macrotask::WaitPolicy::Hold(),
-                     .on_begin = &RecordBegin,
-                     .on_end = &RecordEnd}) {}
-
   const LiftCase& lift;
   FigureCase figure_case;
   int num_lanes;
-  int processors;
-  ClosedChainSystem system;
-  MarkedSystem marked;
-  integrators::Integration integration;
+
+  int processors() const { return figure_case.partition.num_tasks(); }
 };
 
 BlockSampler::BlockSampler(const std::vector<int>& lanes)
     : record_seconds_(MeasureRecord()) {
   for (const int num_lanes : lanes) {
-    for (const Partition partition :
-         {Partition{1, 1}, {2, 1}, {4, 1}, {1, 2}, {1, 3}, {2, 3}, {4, 6}}) {
-      Add(num_lanes, 4, partition, 1);
-    }
-    Add(num_lanes, 2, {1, 1}, 1);
-    if (macrotask::NumProcessors() < 2) continue;
-    for (const Partition partition : {Partition{2, 1}, {1, 2}}) {
-      Add(num_lanes, 4, partition, 2);
+    for (const integrators::BlockMethod& method : Methods()) {
+      for (const int num_chains : {1, 2, 4}) {
+        Add(method, num_lanes, num_chains, {1, 1});
+      }
+      if (macrotask::NumProcessors() < 2) continue;
+      constexpr int kNumChains = 4;
+      Add(method, num_lanes, kNumChains, {2, 1});
+      if (method.block_size > 1) Add(method, num_lanes, kNumChains, {1, 2});
     }
   }
 }
 
 BlockSampler::~BlockSampler() = default;
 
-void BlockSampler::Add(int num_lanes, int num_chains, Partition partition,
-                       int processors) {
+void BlockSampler::Add(const integrators::BlockMethod& method, int num_lanes,
+                       int num_chains, Partition partition) {
   auto& lift = lifts_[num_chains];
   if (!lift) {
     lift = std::make_unique<LiftCase>(dynamics::PumaLift(num_chains), kSteps);
   }
-  const ProcessorsFor use(processors);
-  runs_.push_back(std::make_unique<Run>(
-      *lift,
-      FigureCase{.method = integrators::MakeBlockMethod(kPoints, kValues),
-                 .figure = integrators::Figure::kFigure8,
-                 .partition = partition,
-                 .num_chains = num_chains,
-                 .num_steps = kSteps},
-      num_lanes, processors));
+  runs_.push_back(
+      std::make_unique<Run>(*lift,
+                            FigureCase{.method = method,
+                                       .figure = integrators::Figure::kFigure8,
+                                       .partition = partition,
+                                       .num_chains = num_chains,
+                                       .num_steps = kSteps},
+                            num_lanes));
 }
 
-void BlockSampler::Round() {
-  for (const auto& run : runs_) Measure(*run);
-}
-
-void BlockSampler::Measure(Run& run) {
+void BlockSampler::Measure(const Run& run) {
   SampleConditions conditions = {.before = probe_.Look(), .after = {}};
   const macrotask::Trace trace = TraceOf(run);
   conditions.after = probe_.Look();
@@ -153,11 +138,12 @@ void BlockSampler::Measure(Run& run) {
           .num_lanes = run.num_lanes,
           .block = block,
           .counts = CountsOf(block, run.figure_case, {}, run.num_lanes,
-                             static_cast<int>(t), run.processors),
-          .together = run.processors > 1,
+                             static_cast<int>(t), run.processors()),
+          .together = run.processors() > 1,
           .conditions = conditions,
           .seconds = Median(own)};
-      if (records.size() == 1 && own.size() > 1 && sample.seconds > 0) {
+      if (records.size() == 1 && own.size() > 1 &&
+          sample.seconds > kLeastTold) {
         for (const double s : own) sample.ratios.push_back(s / sample.seconds);
       }
       samples_.push_back(std::move(sample));
@@ -165,11 +151,25 @@ void BlockSampler::Measure(Run& run) {
   }
 }
 
-macrotask::Trace BlockSampler::TraceOf(Run& run) const {
-  const ProcessorsFor use(run.processors);
-  WarmUp([&] { run.integration.RunFrom(run.lift.Planned()); });
+// The system and the integration are made anew each time: where their memory is
+// makes a run faster or slower.
+macrotask::Trace BlockSampler::TraceOf(const Run& run) const {
+  const ClosedChainSystem system(run.lift.lift().model, run.lift.torques(),
+                                 static_cast<dynamics::Lanes>(run.num_lanes));
+  const MarkedSystem marked(system, {.marks = true});
+  integrators::Integration integration(marked,
+                                       {.method = run.figure_case.method,
+                                        .step = run.lift.step(),
+                                        .num_steps = run.lift.num_steps(),
+                                        .figure = run.figure_case.figure,
+                                        .partition = run.figure_case.partition,
+                                        .wait = macrotask::WaitPolicy::Hold(),
+                                        .on_begin = &RecordBegin,
+                                        .on_end = &RecordEnd});
+  const auto run_once = [&] { integration.RunFrom(run.lift.Planned()); };
+  WarmUp(run_once);
   StartRecording();
-  run.integration.RunFrom(run.lift.Planned());
+  run_once();
   macrotask::SetTraceClasses(0);
   return macrotask::TakeTrace();
 }

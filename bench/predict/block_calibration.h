@@ -42,16 +42,18 @@ Spread SpreadOf(std::vector<double> ratios);
 // What writing a record of the history trace takes, next to another one (s).
 double MeasureRecord();
 
-// Runs a method that nobody uses, B6PC7, with marks in its history trace, in
-// partitions on one processor and on two, and takes the blocks' durations from
-// there, so that they are those of a run and not of a loop.
+// Runs methods that nobody uses, such as B3PC5, with marks in their history
+// trace, serially with 1, 2 and 4 chains, and by two tasks; and takes the blocks'
+// durations from there, so that they are those of a run and not of a loop. A
+// task has its processor to itself in all of them, as in what is predicted.
 class BlockSampler {
  public:
   explicit BlockSampler(const std::vector<int>& lanes);
   ~BlockSampler();
 
-  // Runs everything once. Requires PrepareTrace() before.
-  void Round();
+  // Runs one of so many, 0 ..., once. Requires PrepareTrace() before.
+  int num_runs() const { return static_cast<int>(runs_.size()); }
+  void Sample(int run) { Measure(*runs_[static_cast<std::size_t>(run)]); }
 
   const std::vector<BlockSample>& samples() const { return samples_; }
   // All round trips between the processors that were seen (s).
@@ -59,10 +61,10 @@ class BlockSampler {
 
  private:
   struct Run;
-  void Add(int num_lanes, int num_chains, integrators::Partition partition,
-           int processors);
-  void Measure(Run& run);
-  macrotask::Trace TraceOf(Run& run) const;
+  void Add(const integrators::BlockMethod& method, int num_lanes,
+           int num_chains, integrators::Partition partition);
+  void Measure(const Run& run);
+  macrotask::Trace TraceOf(const Run& run) const;
 
   double record_seconds_;
   std::map<int, std::unique_ptr<LiftCase>> lifts_;  // by number of chains

@@ -15,10 +15,7 @@
 namespace bench::predict {
 namespace {
 
-// Of one round. The blocks vary less and are cheaper.
-constexpr int kBlockRepetitions = 5;
-constexpr int kWaitRepetitions = 3;
-constexpr int kRounds = 4;
+constexpr int kRounds = 12;  // of all steps, for a prediction
 
 const CalibrationOptions& Checked(const CalibrationOptions& options) {
   if (macrotask::NumProcessors() < 2) {
@@ -42,8 +39,8 @@ Samples Undisturbed(const Samples& samples, const DistanceSplit& split) {
 }
 
 double ModelSeconds(const MachineModel& machine, const BlockSample& sample) {
-  return machine.BlocksOf(sample.num_lanes)[static_cast<std::size_t>(
-      sample.block)]
+  return machine
+      .BlocksOf(sample.num_lanes)[static_cast<std::size_t>(sample.block)]
       .Seconds(sample.counts.packs, sample.counts.items);
 }
 
@@ -89,7 +86,8 @@ double FitLine(const MachineModel& machine, const Samples& kept, Block block,
   std::vector<double> seconds;
   for (const BlockSample& sample : kept) {
     const bool has_lines = sample.block == block && sample.counts.lines > 0;
-    if (!has_lines || split.Of(sample.conditions.before.round_trip) != distance) continue;
+    if (!has_lines || split.Of(sample.conditions.before.round_trip) != distance)
+      continue;
     seconds.push_back(
         (sample.seconds - machine.SlowdownOn(2, sample.num_lanes) *
                               ModelSeconds(machine, sample)) /
@@ -105,9 +103,13 @@ Calibration::Calibration(const CalibrationOptions& options)
       blocks_(options.lanes),
       waits_(options.hold_time) {}
 
-void Calibration::Round() {
-  for (int r = 0; r < kBlockRepetitions; ++r) blocks_.Round();
-  waits_.Round(kWaitRepetitions);
+void Calibration::Step() {
+  if (next_ < blocks_.num_runs()) {
+    blocks_.Sample(next_);
+  } else {
+    waits_.Sample(next_ - blocks_.num_runs());
+  }
+  next_ = (next_ + 1) % num_steps();
 }
 
 DistanceSplit Calibration::Split(const std::vector<double>& others) const {
@@ -122,9 +124,9 @@ MachineModel Calibration::Fit(const DistanceSplit& split) const {
   MachineModel machine;
   const Machine self = DescribeMachine();
   machine.name = self.cpu;
-  machine.source = fmt::format("measured by macrotask {} ({}), {}, {} {}",
-                               self.version, self.git_hash, self.kernel,
-                               self.compiler, self.flags);
+  machine.source =
+      fmt::format("measured by macrotask {} ({}), {}, {} {}", self.version,
+                  self.git_hash, self.kernel, self.compiler, self.flags);
   machine.processors = self.processors;
   const Samples kept = Undisturbed(blocks_.samples(), split);
   for (const int lanes : options_.lanes) {
@@ -150,8 +152,8 @@ MachineModel Calibration::Fit(const DistanceSplit& split) const {
                   static_cast<double>(trips.size()),
          .point_line = FitLine(machine, kept, Block::kCs, split, distance),
          .tip_line = FitLine(machine, kept, Block::kRma, split, distance),
-         .waits = FitWaits(rows, distance, Median(own) / 2,
-                           machine.processors, options_.hold_time)});
+         .waits = FitWaits(rows, distance, Median(own) / 2, machine.processors,
+                           options_.hold_time)});
   }
   return machine;
 }
@@ -159,9 +161,10 @@ MachineModel Calibration::Fit(const DistanceSplit& split) const {
 MachineModel Calibrate(const CalibrationOptions& options,
                        const std::function<void(int, int)>& show) {
   Calibration calibration(options);
-  for (int r = 0; r < kRounds; ++r) {
-    show(r, kRounds);
-    calibration.Round();
+  const int num_steps = kRounds * calibration.num_steps();
+  for (int step = 0; step < num_steps; ++step) {
+    show(step, num_steps);
+    calibration.Step();
   }
   return calibration.Fit(calibration.Split());
 }

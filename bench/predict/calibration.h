@@ -26,8 +26,11 @@ class Calibration {
   // processors, or the history trace is in use.
   explicit Calibration(const CalibrationOptions& options);
 
-  // Measures everything some times, in turn.
-  void Round();
+  // A shared machine changes in seconds. What is compared with a calibration is
+  // measured in between: Step() makes the next one of num_steps() small
+  // measurements, in turn.
+  int num_steps() const { return blocks_.num_runs() + waits_.num_rows(); }
+  void Step();
 
   // The split of near and far that all round trips so far and `others` show.
   DistanceSplit Split(const std::vector<double>& others = {}) const;
@@ -39,9 +42,10 @@ class Calibration {
   CalibrationOptions options_;
   BlockSampler blocks_;
   WaitSampler waits_;
+  int next_ = 0;
 };
 
-// Makes rounds enough for a prediction.
+// Steps enough for a prediction.
 MachineModel Calibrate(const CalibrationOptions& options,
                        const std::function<void(int, int)>& show);
 

@@ -39,10 +39,10 @@ class Counter {
       case Block::kStart:
         return {0, static_cast<double>(k * ColumnSize(case_.num_chains)), 0};
       case Block::kCs:
-        return {static_cast<double>(share_.points),
-                static_cast<double>(share_.points * k *
-                                    ColumnSize(share_.chains)),
-                LinesOfPoints()};
+        return {
+            static_cast<double>(share_.points),
+            static_cast<double>(share_.points * k * ColumnSize(share_.chains)),
+            LinesOfPoints()};
       case Block::kOcd:
       case Block::kCcd:
         return {CeilDiv(pairs, num_lanes_), static_cast<double>(pairs), 0};

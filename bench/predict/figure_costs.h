@@ -9,9 +9,9 @@ namespace bench::predict {
 
 // Sizes of a system's parts, in doubles.
 struct SystemSizes {
-  int chain = 12;    // the state of one chain: 6 joints
-  int common = 13;   // that of the reference member
-  int tip_lines = 4; // cache lines through which a chain's tip reaches RMA
+  int chain = 12;     // the state of one chain: 6 joints
+  int common = 13;    // that of the reference member
+  int tip_lines = 4;  // cache lines through which a chain's tip reaches RMA
 };
 
 // By what the cost of a block grows, for the share of one task; see BlockCost.
@@ -48,9 +48,9 @@ Counts CountsOf(Block block, const FigureCase& figure_case,
 // What a run costs besides its blocks.
 struct RunCosts {
   int num_lanes = 4;
-  double work = 0;      // s, for each pair, in OCD
+  double work = 0;                      // s, for each pair, in OCD
   double point_line = 0, tip_line = 0;  // s, as in Condition
-  double slowdown = 1;  // MachineModel::SlowdownOn()
+  double slowdown = 1;                  // MachineModel::SlowdownOn()
   int num_processors = 1;
 };
 

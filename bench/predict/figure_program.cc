@@ -52,16 +52,15 @@ std::vector<std::vector<Step>> ReadSteps(const FigureCase& figure_case,
   const EmptySystem empty(figure_case.num_chains);
   const SystemWith system(empty, {.marks = true});
   const integrators::BlockMethod& method = figure_case.method;
-  Integration integration(
-      system,
-      {.method = method,
-       .step = 1,
-       .num_steps = method.num_values - 1 + num_blocks * method.block_size,
-       .figure = figure_case.figure,
-       .partition = figure_case.partition,
-       .wait = macrotask::WaitPolicy::Logical(),
-       .on_begin = &RecordBegin,
-       .on_end = &RecordEnd});
+  Integration integration(system, {.method = method,
+                                   .step = 1,
+                                   .num_steps = method.num_values - 1 +
+                                                num_blocks * method.block_size,
+                                   .figure = figure_case.figure,
+                                   .partition = figure_case.partition,
+                                   .wait = macrotask::WaitPolicy::Logical(),
+                                   .on_begin = &RecordBegin,
+                                   .on_end = &RecordEnd});
   using macrotask::TraceClass;
   macrotask::SetTraceClasses(static_cast<std::uint32_t>(TraceClass::kEvents) |
                              static_cast<std::uint32_t>(TraceClass::kUsers));

@@ -53,13 +53,13 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 // What one way to wait costs (s).
 struct WaitCost {
   BarrierCost barrier;
-  double event = 0;       // from a post to the return of a task that waits
-  double post = 0;        // what a post or a clear costs its caller
-  double lock = 0;        // from a release to the return of the next one
-  double start = 0;       // from TSKSTART to the first instruction
+  double event = 0;  // from a post to the return of a task that waits
+  double post = 0;   // what a post or a clear costs its caller
+  double lock = 0;   // from a release to the return of the next one
+  double start = 0;  // from TSKSTART to the first instruction
   double sleeps_after = kNever;  // a wait that has lasted so long sleeps
-  double wake = 0;        // from the release to the return of one that sleeps
-  double waker = 0;       // what it costs whoever lets sleepers go
+  double wake = 0;   // from the release to the return of one that sleeps
+  double waker = 0;  // what it costs whoever lets sleepers go
   // Tasks that share a processor:
   double turn = 0;         // one gives its turn to the next
   double shared_wake = 0;  // from the release of a task to when it is ready

@@ -341,8 +341,7 @@ std::vector<Condition> ReadConditions(const Value& value) {
   return conditions;
 }
 
-Slowdown ReadSlowdown(const Value& value,
-                      const std::vector<Slowdown>& others) {
+Slowdown ReadSlowdown(const Value& value, const std::vector<Slowdown>& others) {
   value.ExpectObject({"from_processors", "lanes", "factor", "why"});
   const Value from = value["from_processors"], factor = value["factor"];
   const Value lanes = value["lanes"];

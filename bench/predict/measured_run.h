@@ -10,26 +10,35 @@
 
 namespace bench::predict {
 
-// Calls `run` again and again for 2 ms: the caches are warm, and a virtual
-// machine has its processors where they stay while they compute. After a sleep
-// they may share a core for a while.
+// Brings the machine into the same state before every measurement: how fast a
+// processor of a virtual machine is, and where it is, depends on what both have
+// just done. Both compute for half a millisecond.
+void MeetBoth();
+
+// Then calls `run` again and again for another one and a half.
 template <typename Run>
 void WarmUp(const Run& run) {
-  const auto end =
-      std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
+  using Clock = std::chrono::steady_clock;
+  MeetBoth();
+  const auto end = Clock::now() + std::chrono::microseconds(1500);
   do {
     run();
-  } while (std::chrono::steady_clock::now() < end);
+  } while (Clock::now() < end);
 }
+
+// Seconds that a step of Delay() takes in each of so many tasks, one or two,
+// with a processor each; the slowest of them.
+double MeasureDelayStep(int num_tasks);
 
 // The run of a case on this machine. Made with as many processors in use as it
 // is to run on (macrotask::SetMaxProcessors).
 class MeasuredRun {
  public:
-  // `delay_rate`: see MeasureDelayRate(). `lift` must outlive it, and its
-  // number of steps is that of the case.
+  // The case's work is done in this many steps of Delay() for each chain at
+  // each point. `lift` must outlive it, and its number of steps is that of the
+  // case.
   MeasuredRun(const RunCase& run_case, const LiftCase& lift,
-              macrotask::WaitPolicy wait, double delay_rate);
+              macrotask::WaitPolicy wait, long delay_steps);
 
   // Seconds of one run, started from the plan, behind others that warm up.
   double Measure();

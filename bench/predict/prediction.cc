@@ -129,10 +129,10 @@ Prediction Predictor::Predict(const RunCase& run_case) {
 
 Prediction Predictor::PredictIn(const Condition& condition,
                                 const RunCase& run_case) {
-  return Replicate(run_case,
-                   std::vector<const Condition*>(
-                       static_cast<std::size_t>(options_.replications),
-                       &condition));
+  return Replicate(
+      run_case,
+      std::vector<const Condition*>(
+          static_cast<std::size_t>(options_.replications), &condition));
 }
 
 Prediction Predictor::PredictProgram(const Program& program, WaitKind wait,

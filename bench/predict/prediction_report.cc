@@ -54,9 +54,8 @@ std::vector<std::string> Cells(const PredictedRow& row, const Unit& unit,
   }
   if (!paper) return cells;
   for (const auto figure : {&PaperRow::S_p, &PaperRow::S_T}) {
-    cells.push_back(row.paper == nullptr
-                        ? ""
-                        : fmt::format("{:.4g}", row.paper->*figure));
+    cells.push_back(
+        row.paper == nullptr ? "" : fmt::format("{:.4g}", row.paper->*figure));
   }
   return cells;
 }
@@ -98,10 +97,21 @@ std::string TableText(const std::vector<PredictedRow>& rows) {
   bool paper = false;
   for (const PredictedRow& row : rows) paper = paper || row.paper != nullptr;
   const Unit unit = UnitFor(rows);
-  std::vector<std::string> header = {
-      "processors", "method", "m^", "p^", fmt::format("T ({})", unit.name),
-      "S_p", "S_a", "S_T", "critical path", "work bound", "free sync",
-      "compute %", "imbalance %", "sync %", "queue %"};
+  std::vector<std::string> header = {"processors",
+                                     "method",
+                                     "m^",
+                                     "p^",
+                                     fmt::format("T ({})", unit.name),
+                                     "S_p",
+                                     "S_a",
+                                     "S_T",
+                                     "critical path",
+                                     "work bound",
+                                     "free sync",
+                                     "compute %",
+                                     "imbalance %",
+                                     "sync %",
+                                     "queue %"};
   if (paper) header.insert(header.end(), {"paper S_p", "S_T"});
   TextTable table(header);
   for (const PredictedRow& row : rows) {
@@ -119,11 +129,14 @@ std::string TableText(const std::vector<PredictedRow>& rows) {
 }
 
 std::string TableCsv(const std::vector<PredictedRow>& rows) {
-  TextTable table({"processors", "method", "chain_tasks", "integration_tasks",
-                   "T_s", "T_low_s", "T_high_s", "S_p", "S_p_low", "S_p_high",
-                   "S_a", "S_T", "S_T_low", "S_T_high", "S_p_critical_path",
-                   "S_p_work_bound", "S_p_free_sync", "compute", "imbalance",
-                   "sync", "queue", "paper_S_p", "paper_S_T"});
+  TextTable table({"processors",        "method",        "chain_tasks",
+                   "integration_tasks", "T_s",           "T_low_s",
+                   "T_high_s",          "S_p",           "S_p_low",
+                   "S_p_high",          "S_a",           "S_T",
+                   "S_T_low",           "S_T_high",      "S_p_critical_path",
+                   "S_p_work_bound",    "S_p_free_sync", "compute",
+                   "imbalance",         "sync",          "queue",
+                   "paper_S_p",         "paper_S_T"});
   const auto number = [](double x) { return fmt::format("{:.6g}", x); };
   for (const PredictedRow& row : rows) {
     std::vector<std::string> cells = {
@@ -134,8 +147,8 @@ std::string TableCsv(const std::vector<PredictedRow>& rows) {
          {row.T.value, row.T.range.low, row.T.range.high, row.S_p.value,
           row.S_p.range.low, row.S_p.range.high, row.S_a, row.S_T.value,
           row.S_T.range.low, row.S_T.range.high, row.critical_path,
-          row.work_bound, row.free_sync, row.where.compute,
-          row.where.imbalance, row.where.sync, row.where.queue}) {
+          row.work_bound, row.free_sync, row.where.compute, row.where.imbalance,
+          row.where.sync, row.where.queue}) {
       cells.push_back(number(x));
     }
     for (const auto figure : {&PaperRow::S_p, &PaperRow::S_T}) {

@@ -171,10 +171,9 @@ const PredictedRow& RuleOf(const std::vector<PredictedRow>& rows) {
 }
 
 const PredictedRow& BestOf(const std::vector<PredictedRow>& rows) {
-  return *std::max_element(rows.begin(), rows.end(),
-                           [](const auto& a, const auto& b) {
-                             return a.S_T.value < b.S_T.value;
-                           });
+  return *std::max_element(
+      rows.begin(), rows.end(),
+      [](const auto& a, const auto& b) { return a.S_T.value < b.S_T.value; });
 }
 
 }  // namespace bench::predict

@@ -29,9 +29,9 @@ enum class StepKind {
 struct Step {
   StepKind kind = StepKind::kCompute;
   Block block = Block::kOther;  // of kCompute
-  int object = 0;      // index of the barrier, event, lock, or task
-  double seconds = 0;  // of kCompute, median
-  double busy = 0;     // of kCompute, on top of that: never varies
+  int object = 0;               // index of the barrier, event, lock, or task
+  double seconds = 0;           // of kCompute, median
+  double busy = 0;              // of kCompute, on top of that: never varies
 
   friend bool operator==(const Step&, const Step&) = default;
 };

@@ -347,8 +347,7 @@ class Simulation {
   // The event is posted: the call goes on when that is known here.
   void Pass(const Event& event) {
     if (is_crowded()) return;
-    busy_until_ =
-        std::max(busy_until_, event.posted_at + options_.wait.event);
+    busy_until_ = std::max(busy_until_, event.posted_at + options_.wait.event);
   }
 
   void Unlock(int t, Lock* lock) {

@@ -34,9 +34,7 @@ struct TaskTimes {
   double queue = 0;      // it could go on, but others had its processor
   double absent = 0;     // before its start, after its end
 
-  double total() const {
-    return compute + imbalance + sync + queue + absent;
-  }
+  double total() const { return compute + imbalance + sync + queue + absent; }
 };
 
 struct SimulationResult {

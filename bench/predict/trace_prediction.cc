@@ -18,8 +18,7 @@ std::vector<TracePrediction> PredictTrace(const Program& program,
                                           Predictor* predictor) {
   std::vector<TracePrediction> rows;
   for (const int n : processors) {
-    rows.push_back(
-        {n, predictor->PredictProgram(program, wait, n, placement)});
+    rows.push_back({n, predictor->PredictProgram(program, wait, n, placement)});
   }
   return rows;
 }

@@ -8,7 +8,6 @@
 
 #include "bench/lift_case.h"
 #include "bench/predict/measured_run.h"
-#include "bench/sync_delay.h"
 #include "bench/sync_plan.h"
 #include "macrotask/placement.h"
 
@@ -74,7 +73,6 @@ void Measure(int repetitions, std::chrono::nanoseconds hold_time,
              const std::function<void(const char*, int, int)>& show) {
   std::map<int, std::unique_ptr<LiftCase>> lifts;  // by number of steps
   std::vector<std::unique_ptr<MeasuredRun>> runs;
-  const double rate = MeasureDelayRate();
   for (const Candidate& candidate : *finalists) {
     const RunCase& run_case = candidate.run_case;
     auto& lift = lifts[run_case.figure.num_steps];
@@ -83,16 +81,14 @@ void Measure(int repetitions, std::chrono::nanoseconds hold_time,
                                         run_case.figure.num_steps);
     }
     runs.push_back(std::make_unique<MeasuredRun>(
-        run_case, *lift, macrotask::WaitPolicy{run_case.wait, hold_time},
-        rate));
+        run_case, *lift, macrotask::WaitPolicy{run_case.wait, hold_time}, 0));
   }
   for (int r = 0; r < repetitions; ++r) {
     show("measure", r, repetitions);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const MethodSweep& sweep = *(*finalists)[i].sweep;
-      (*finalists)[i].measured.push_back(runs[i]->Measure() *
-                                         sweep.steps_at_target /
-                                         WholeSteps(sweep));
+      (*finalists)[i].measured.push_back(
+          runs[i]->Measure() * sweep.steps_at_target / WholeSteps(sweep));
     }
   }
 }
@@ -149,14 +145,15 @@ RuleTurn FindTurn(const TableOptions& options,
   // Per block two barriers of chains, if there are several chain tasks, and two
   // of points, likewise.
   const integrators::BlockMethod& method = rule.method;
-  const auto sweep = std::find_if(
-      sweeps.begin(), sweeps.end(), [&](const MethodSweep& other) {
+  const auto sweep =
+      std::find_if(sweeps.begin(), sweeps.end(), [&](const MethodSweep& other) {
         return other.method.name() == method.name();
       });
   const double blocks =
       (sweep->steps_at_target - (method.num_values - 1)) / method.block_size;
-  const double barriers = 2 * blocks * ((rule.partition.chain_tasks > 1) +
-                                        (rule.partition.integration_tasks > 1));
+  const double barriers = 2 * blocks *
+                          ((rule.partition.chain_tasks > 1) +
+                           (rule.partition.integration_tasks > 1));
   turn.compute = rule.T.value * rule.where.compute / barriers;
   turn.sync = rule.T.value * rule.where.sync / barriers;
   return turn;

@@ -16,20 +16,20 @@ namespace bench::predict {
 struct Candidate {
   const MethodSweep* sweep = nullptr;
   RunCase run_case;
-  double predicted = 0;           // s, at the steps for the target error
-  std::vector<double> measured;   // s, likewise, by repetition
+  double predicted = 0;          // s, at the steps for the target error
+  std::vector<double> measured;  // s, likewise, by repetition
 };
 
 // When the paper's rule holds: the least busy work for each chain at each point
 // from which on the configuration that the rule chooses is the fastest.
 struct RuleTurn {
   int num_lanes = 4;
-  std::string rule, best;           // configurations, without further work
-  double loss = 1;                  // T of the rule's over that of the best
-  std::optional<double> work;       // s; 0: it holds as it is; none: not even
-                                    // with the most that was tried
-  double compute = 0, sync = 0;     // s, of a task of the rule's configuration
-                                    // between two barriers, with that work
+  std::string rule, best;        // configurations, without further work
+  double loss = 1;               // T of the rule's over that of the best
+  std::optional<double> work;    // s; 0: it holds as it is; none: not even
+                                 // with the most that was tried
+  double compute = 0, sync = 0;  // s, of a task of the rule's configuration
+                                 // between two barriers, with that work
 };
 
 struct Tuning {
@@ -50,8 +50,7 @@ struct TuningOptions {
 inline constexpr double kMostWork = 1e-3;  // s
 
 RuleTurn FindTurn(const TableOptions& options,
-                  const std::vector<MethodSweep>& sweeps,
-                  Predictor* predictor);
+                  const std::vector<MethodSweep>& sweeps, Predictor* predictor);
 
 Tuning Tune(const TuningOptions& options,
             const std::function<void(const char*, int, int)>& show);

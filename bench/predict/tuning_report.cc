@@ -31,10 +31,10 @@ std::vector<std::string> CaseCells(const Candidate& candidate) {
 }
 
 const Candidate& SerialOf(const Tuning& tuning) {
-  return *std::find_if(
-      tuning.measured.begin(), tuning.measured.end(), [](const auto& one) {
-        return one.run_case.figure.partition.num_tasks() == 1;
-      });
+  return *std::find_if(tuning.measured.begin(), tuning.measured.end(),
+                       [](const auto& one) {
+                         return one.run_case.figure.partition.num_tasks() == 1;
+                       });
 }
 
 std::string MeasuredTable(const Tuning& tuning) {
@@ -74,9 +74,9 @@ std::string WinnerSentence(const Tuning& tuning) {
 }
 
 std::string TurnSentence(const RuleTurn& turn) {
-  std::string text = fmt::format(
-      "{} lane{}: the rule takes {}, ", turn.num_lanes,
-      turn.num_lanes == 1 ? "" : "s", turn.rule);
+  std::string text =
+      fmt::format("{} lane{}: the rule takes {}, ", turn.num_lanes,
+                  turn.num_lanes == 1 ? "" : "s", turn.rule);
   if (turn.work && *turn.work == 0) {
     return text + fmt::format(
                       "rightly: {} of computing between two barriers, which "
@@ -87,9 +87,10 @@ std::string TurnSentence(const RuleTurn& turn) {
   text += fmt::format("{:.2f} times the time of the best, {}. ", turn.loss,
                       turn.best);
   if (!turn.work) {
-    return text + fmt::format("Even {} of further\n  work for each chain at "
-                              "each point does not change that.\n",
-                              DurationText(kMostWork));
+    return text + fmt::format(
+                      "Even {} of further\n  work for each chain at "
+                      "each point does not change that.\n",
+                      DurationText(kMostWork));
   }
   return text + fmt::format(
                     "It is\n  right from {} of further work for each chain at "

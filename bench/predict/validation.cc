@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <memory>
 #include <utility>
 
 #include "bench/predict/measured_run.h"
@@ -23,11 +23,11 @@ using macrotask::WaitKind;
 
 // The values to start from and whole blocks of all methods.
 constexpr int kSteps = 4 + 64;
-constexpr int kRepetitions = 4;  // of a round
+constexpr int kDelayEvery = 50;  // runs
 
 struct Run {
   RunCase run_case;
-  std::unique_ptr<MeasuredRun> run;
+  long delay_steps;
   struct Sample {
     SampleConditions conditions;
     double seconds;
@@ -104,42 +104,64 @@ namespace {
 class Measurement {
  public:
   explicit Measurement(std::chrono::nanoseconds hold_time)
-      : lift_(dynamics::PumaLift(), kSteps) {
+      : lift_(dynamics::PumaLift(), kSteps), hold_time_(hold_time) {
+    // Nominally; what a step takes is measured along with the runs.
     const double rate = MeasureDelayRate();
     for (const RunCase& run_case : ValidationCases()) {
       if (run_case.processors > macrotask::NumProcessors()) continue;
-      const ProcessorsFor use(run_case.processors);
-      runs_.push_back(
-          {run_case,
-           std::make_unique<MeasuredRun>(
-               run_case, lift_,
-               macrotask::WaitPolicy{run_case.wait, hold_time}, rate),
-           {}});
+      runs_.push_back({run_case, DelaySteps(run_case.work * 1e6, rate), {}});
     }
   }
 
-  void Repeat() {
+  // Calls between() before every run.
+  template <typename Between>
+  void Repeat(const Between& between) {
     for (Run& run : runs_) {
+      between();
       SampleConditions conditions = {.before = probe_.Look(), .after = {}};
-      double seconds;
-      {
-        const ProcessorsFor use(run.run_case.processors);
-        seconds = run.run->Measure();
-      }
+      const double seconds = Measure(run);
       conditions.after = probe_.Look();
       round_trips_.push_back(conditions.before.round_trip);
       run.samples.push_back({conditions, seconds});
     }
   }
 
-  const std::vector<Run>& runs() const { return runs_; }
+  int num_runs() const { return static_cast<int>(runs_.size()); }
+
+  // The runs, with the work that their steps of Delay() usually were.
+  std::vector<Run> TakeRuns() {
+    for (Run& run : runs_) {
+      const auto tasks = static_cast<std::size_t>(std::min(
+          run.run_case.processors, run.run_case.figure.partition.num_tasks()));
+      run.run_case.work = static_cast<double>(run.delay_steps) *
+                          Median(delay_steps_.at(tasks - 1));
+    }
+    return std::move(runs_);
+  }
+
+  void MeasureDelay() {
+    for (int tasks = 1; tasks <= 2; ++tasks) {
+      delay_steps_[static_cast<std::size_t>(tasks - 1)].push_back(
+          MeasureDelayStep(tasks));
+    }
+  }
   const std::vector<double>& round_trips() const { return round_trips_; }
 
  private:
+  // Made anew each time: where its memory is makes a run faster or slower.
+  double Measure(const Run& run) {
+    const ProcessorsFor use(run.run_case.processors);
+    return MeasuredRun(run.run_case, lift_, {run.run_case.wait, hold_time_},
+                       run.delay_steps)
+        .Measure();
+  }
+
   LiftCase lift_;
+  std::chrono::nanoseconds hold_time_;
   ConditionsProbe probe_;
   std::vector<Run> runs_;
   std::vector<double> round_trips_;
+  std::array<std::vector<double>, 2> delay_steps_;  // s, by tasks less one
 };
 
 // Rows of a run, one for each condition in which it was measured often enough.
@@ -178,16 +200,22 @@ Validation Validate(const CalibrationOptions& options, int rounds,
                     const std::function<void(int, int)>& show) {
   Calibration calibration(options);
   Measurement measurement(options.hold_time);
+  // So that in a round every step of the calibration has its turn.
+  const int runs_a_step =
+      std::max(1, measurement.num_runs() / calibration.num_steps());
+  int num_runs = 0;
   for (int round = 0; round < rounds; ++round) {
-    show(round, rounds);
-    calibration.Round();
-    for (int r = 0; r < kRepetitions; ++r) measurement.Repeat();
+    measurement.Repeat([&] {
+      if (num_runs % kDelayEvery == 0) measurement.MeasureDelay();
+      if (num_runs++ % runs_a_step == 0) calibration.Step();
+      show(num_runs, rounds * measurement.num_runs());
+    });
   }
   const DistanceSplit split = calibration.Split(measurement.round_trips());
   Validation validation;
   validation.machine = calibration.Fit(split);
   Predictor predictor(validation.machine, {.replications = 10});
-  for (const Run& run : measurement.runs()) {
+  for (const Run& run : measurement.TakeRuns()) {
     AddRows(run, split, &predictor, &validation);
   }
   return validation;

@@ -20,10 +20,10 @@ std::vector<RunCase> ValidationCases();
 
 struct ValidationRow {
   RunCase run_case;
-  std::string condition;   // of the machine, while it was measured
-  double measured = 0;     // s, median
-  int n = 0;               // measurements
-  double predicted = 0;    // s, median
+  std::string condition;  // of the machine, while it was measured
+  double measured = 0;    // s, median
+  int n = 0;              // measurements
+  double predicted = 0;   // s, median
 
   // Relative to what was measured.
   double error() const { return predicted / measured - 1; }

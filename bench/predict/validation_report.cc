@@ -21,8 +21,7 @@ std::string GroupOf(const ValidationRow& row) {
   const int tasks = run.figure.partition.num_tasks();
   if (tasks == 1) return "serial";
   return fmt::format("{}, {}", macrotask::Name(run.wait),
-                     tasks > run.processors ? "crowded"
-                                            : "a processor each");
+                     tasks > run.processors ? "crowded" : "a processor each");
 }
 
 using Rows = std::vector<const ValidationRow*>;
@@ -48,8 +47,8 @@ std::string GroupTable(const std::vector<ValidationRow>& rows) {
     groups[GroupOf(row)].push_back(&row);
     all.push_back(&row);
   }
-  TextTable table({"tasks wait", "runs", "error (%)", "median size", "90 %",
-                   "worst"});
+  TextTable table(
+      {"tasks wait", "runs", "error (%)", "median size", "90 %", "worst"});
   for (const auto& [name, group] : groups) {
     table.AddRow(GroupCells(name, group));
   }
@@ -66,8 +65,8 @@ std::string WorstTable(const std::vector<ValidationRow>& rows) {
                      return Size(*a) > Size(*b);
                    });
   worst.resize(std::min(worst.size(), kShown));
-  TextTable table({"run", "condition", "measured (us)", "predicted (us)",
-                   "error (%)"});
+  TextTable table(
+      {"run", "condition", "measured (us)", "predicted (us)", "error (%)"});
   for (const ValidationRow* row : worst) {
     table.AddRow({RunText(row->run_case), row->condition,
                   fmt::format("{:.1f}", row->measured * 1e6),
@@ -103,8 +102,8 @@ std::string ValidationText(const Validation& validation) {
       "measurements dropped as disturbed.\n\n{}\nThe worst:\n\n{}\n"
       "Goal: median under 5 %, worst under 15 %. Median {:.1f} %: {}. Worst "
       "{:.1f} %: {}.\n",
-      validation.rows.size(), validation.disturbed,
-      GroupTable(validation.rows), WorstTable(validation.rows), median * 100,
+      validation.rows.size(), validation.disturbed, GroupTable(validation.rows),
+      WorstTable(validation.rows), median * 100,
       median < 0.05 ? "met" : "missed", worst * 100,
       worst < 0.15 ? "met" : "missed");
 }

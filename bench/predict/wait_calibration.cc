@@ -45,22 +45,11 @@ bool IsWanted(const Variant& variant) {
   const bool anonymous = variant.construct == kBarsync;
   const bool logical = variant.by == Name(WaitKind::kLogical);
   return variant.work == kWork &&
-         (anonymous ? logical
-                    : variant.construct == kEvent ||
-                          variant.construct == kCounter ||
-                          variant.construct == kDissemination ||
-                          variant.construct == kTree);
-}
-
-// Those that make processors sleep or change stacks come last: what follows
-// them at once is slower.
-bool ComesLater(const Variant& a, const Variant& b) {
-  const auto rank = [](const Variant& variant) {
-    const bool sleeps = variant.by == Name(WaitKind::kBlock) ||
-                        variant.construct == kFutex;
-    return sleeps ? 2 : IsCrowded(variant) ? 1 : 0;
-  };
-  return rank(a) < rank(b);
+         (anonymous
+              ? logical
+              : variant.construct == kEvent || variant.construct == kCounter ||
+                    variant.construct == kDissemination ||
+                    variant.construct == kTree);
 }
 
 // Looks rows up, at one distance if possible.
@@ -106,8 +95,8 @@ void FitCrowded(const Rows& rows, WaitKind wait, int processors,
   if (!few || !many) return;
   const double slope = (*many - *few) / (kManyTasks - kFewTasks);
   cost->shared_wake = std::max(0.0, *few - slope * kFewTasks);
-  cost->turn = std::max(0.0, (*many - cost->shared_wake) / kManyTasks) *
-               processors;
+  cost->turn =
+      std::max(0.0, (*many - cost->shared_wake) / kManyTasks) * processors;
 }
 
 WaitCost FitWait(const Rows& rows, WaitKind wait, double one_way,
@@ -148,22 +137,18 @@ WaitSampler::WaitSampler(std::chrono::nanoseconds hold_time) {
   std::vector<Variant> all;
   AddConstructs(axes, &all);
   AddLimits(axes, &all);
-  std::copy_if(all.begin(), all.end(), std::back_inserter(variants_),
-               &IsWanted);
-  std::stable_sort(variants_.begin(), variants_.end(), &ComesLater);
+  for (const Variant& variant : all) {
+    if (IsWanted(variant)) series_.push_back({variant, 0, {}});
+  }
 }
 
-void WaitSampler::Round(int repetitions) {
-  std::vector<SyncSeries> round = SampleAll(
-      variants_, {.repetitions = repetitions}, [](int, int) {});
-  if (series_.empty()) {
-    series_ = std::move(round);
-    return;
-  }
-  for (std::size_t i = 0; i < round.size(); ++i) {
-    std::move(round[i].samples.begin(), round[i].samples.end(),
-              std::back_inserter(series_[i].samples));
-  }
+void WaitSampler::Sample(int row) {
+  SyncSeries& series = series_[static_cast<std::size_t>(row)];
+  std::vector<SyncSeries> sampled =
+      SampleAll({series.variant}, {.repetitions = 1}, [](int, int) {});
+  series.calls = sampled[0].calls;
+  std::move(sampled[0].samples.begin(), sampled[0].samples.end(),
+            std::back_inserter(series.samples));
 }
 
 std::vector<double> WaitSampler::round_trips() const {

@@ -18,15 +18,15 @@ class WaitSampler {
  public:
   explicit WaitSampler(std::chrono::nanoseconds hold_time);
 
-  // Samples everything so many times.
-  void Round(int repetitions);
+  // Samples one of so many rows, 0 ..., once.
+  int num_rows() const { return static_cast<int>(series_.size()); }
+  void Sample(int row);
 
   const std::vector<SyncSeries>& series() const { return series_; }
   std::vector<double> round_trips() const;
 
  private:
-  std::vector<Variant> variants_;
-  std::vector<SyncSeries> series_;  // by variant
+  std::vector<SyncSeries> series_;
 };
 
 // The costs of every way to wait at one distance of the processors, out of the
