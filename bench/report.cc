@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "bench/gains.h"
@@ -81,6 +82,29 @@ std::string NeedsText(const TableRow& row) {
   return fmt::format("needs {} processors", row.processors());
 }
 
+// What is predicted stands in columns of its own.
+std::vector<std::string> PredictedCells(const TableRow& row, bool with_S_T) {
+  if (!row.predicted) {
+    return std::vector<std::string>(with_S_T ? 3 : 2);
+  }
+  const predict::PredictedRow& predicted = *row.predicted;
+  const auto text = [](const predict::Ranged& value, double factor,
+                       int digits) {
+    return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", value.value * factor,
+                       digits, value.range.low * factor, digits,
+                       value.range.high * factor, digits);
+  };
+  std::vector<std::string> cells = {text(predicted.T, 1e6, 1),
+                                    text(predicted.S_p, 1, 2)};
+  if (with_S_T) cells.push_back(text(predicted.S_T, 1, 2));
+  return cells;
+}
+
+void Append(std::vector<std::string> more, std::vector<std::string>* cells) {
+  cells->insert(cells->end(), std::make_move_iterator(more.begin()),
+                std::make_move_iterator(more.end()));
+}
+
 std::string SpeedupText(const LaneTables& tables, const TableRow& row) {
   const Gain s = SpeedupOf(SerialRow(tables, row.block_size), row);
   if (row.processors() == 1) return "1.00";
@@ -94,7 +118,7 @@ std::string BitsText(const TableRow& row) {
 
 std::string Table1Text(const LaneTables& tables) {
   TextTable table({"processors", "m^", "p^", "T (us)", "S_p", "states",
-                   "paper T (s)", "paper S_p"});
+                   "predicted T (us)", "S_p", "paper T (s)", "S_p"});
   for (const TableRow& row : tables.rows) {
     if (row.block_size != 4) continue;
     std::vector<std::string> cells = PartitionCells(row);
@@ -102,6 +126,7 @@ std::string Table1Text(const LaneTables& tables) {
                                    : NeedsText(row));
     cells.push_back(row.measured() ? SpeedupText(tables, row) : "");
     cells.push_back(BitsText(row));
+    Append(PredictedCells(row, false), &cells);
     cells.push_back(PaperCell(row, &PaperRow::T));
     cells.push_back(PaperCell(row, &PaperRow::S_p));
     table.AddRow(std::move(cells));
@@ -112,8 +137,9 @@ std::string Table1Text(const LaneTables& tables) {
 
 std::string Table2Text(const Reproduction& r, const LaneTables& tables) {
   TextTable table({"processors", "m^", "p^", "block", "T (us)", "S_p",
-                   "S_a steps", "S_a clock", "S_T", "states", "paper T (s)",
-                   "S_p", "S_a", "S_T"});
+                   "S_a steps", "S_a clock", "S_T", "states",
+                   "predicted T (us)", "S_p", "S_T", "paper T (s)", "S_p",
+                   "S_a", "S_T"});
   for (const TableRow& row : tables.rows) {
     std::vector<std::string> cells = PartitionCells(row);
     cells.push_back(fmt::format("{}", row.block_size));
@@ -130,6 +156,7 @@ std::string Table2Text(const Reproduction& r, const LaneTables& tables) {
       cells.insert(cells.end(), {NeedsText(row), "", "", "", ""});
     }
     cells.push_back(BitsText(row));
+    Append(PredictedCells(row, true), &cells);
     cells.push_back(PaperCell(row, &PaperRow::T));
     cells.push_back(PaperCell(row, &PaperRow::S_p));
     cells.push_back(PaperCell(row, &PaperRow::S_a));
@@ -190,12 +217,11 @@ std::string ReportText(const Reproduction& r) {
   }
   text +=
       "\nT: median over the repetitions (interleaved), at the steps for 1e-6 "
-      "m; "
-      "brackets: 95 %\nintervals. S_p, S_a clock: medians of the ratios of "
-      "runs "
-      "next to each other.\nstates: bit for bit those of the serial program, "
-      "or "
-      "not. Paper: CRAY Y-MP8/864.\n\n";
+      "m; brackets: 95 %\nintervals. S_p, S_a clock: medians of the ratios of "
+      "runs next to each other.\nstates: bit for bit those of the serial "
+      "program, or not. predicted: by simulation, with\nthe costs of this "
+      "machine, as if it had so many processors; brackets: the middle 95 %\n"
+      "of the replications (macrotask predict). Paper: CRAY Y-MP8/864.\n\n";
   for (const LaneTables& tables : r.lanes) text += LiftText(tables);
   return text + "\n" + CostText(r);
 }

@@ -37,6 +37,17 @@ nlohmann::json RowJson(const Reproduction& r, const LaneTables& tables,
     json["S_T"] = S_p.value * S_a;
   } else {
     json["needs_processors"] = row.processors();
+    if (row.predicted) {
+      const predict::PredictedRow& predicted = *row.predicted;
+      const auto ranged = [](const predict::Ranged& value) {
+        return nlohmann::json{{"median", value.value},
+                              {"range", {value.range.low, value.range.high}}};
+      };
+      json["predicted"] = {{"T", ranged(predicted.T)},
+                           {"S_p", ranged(predicted.S_p)},
+                           {"S_a", predicted.S_a},
+                           {"S_T", ranged(predicted.S_T)}};
+    }
   }
   if (row.paper != nullptr) {
     json["paper"] = {{"T", row.paper->T},
@@ -78,6 +89,9 @@ std::string ReportCsv(const Reproduction& r) {
                    "S_T",
                    "same_bits_as_serial",
                    "needs_processors",
+                   "predicted_T_s",
+                   "predicted_S_p",
+                   "predicted_S_T",
                    "paper_T_s",
                    "paper_S_p",
                    "paper_S_a",
@@ -109,6 +123,14 @@ std::string ReportCsv(const Reproduction& r) {
       cells.push_back(row.same_bits ? "true" : "false");
       cells.push_back(row.measured() ? ""
                                      : fmt::format("{}", row.processors()));
+      if (row.predicted) {
+        for (const double x : {row.predicted->T.value, row.predicted->S_p.value,
+                               row.predicted->S_T.value}) {
+          cells.push_back(number(x));
+        }
+      } else {
+        cells.insert(cells.end(), 3, "");
+      }
       for (const auto figure :
            {&PaperRow::T, &PaperRow::S_p, &PaperRow::S_a, &PaperRow::S_T}) {
         cells.push_back(row.paper == nullptr ? "" : number(row.paper->*figure));

@@ -1,13 +1,16 @@
 #include "bench/reproduce.h"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
+#include "bench/predict/calibration.h"
 #include "bench/progress.h"
 #include "macrotask/placement.h"
+#include "macrotask/trace.h"
 
 namespace bench {
 namespace {
@@ -123,6 +126,40 @@ class LaneMeasurement {
   std::vector<double> lift_start_;
 };
 
+// Needs two processors, to see what waiting costs, and the history trace for
+// itself.
+bool CanPredict(const ReproduceOptions& options) {
+  return options.predict && macrotask::NumProcessors() >= 2 &&
+         macrotask::TraceClasses() == 0;
+}
+
+void PredictRows(const predict::MachineModel& machine,
+                 const ReproduceOptions& options,
+                 const std::vector<MethodSweep>& sweeps, LaneTables* tables) {
+  predict::Predictor predictor(machine, {});
+  predict::TableOptions table;
+  table.num_lanes = static_cast<int>(tables->lanes);
+  table.wait = options.wait.kind;
+  for (const TableRow& row : tables->rows) {
+    const auto known = std::find(table.processors.begin(),
+                                 table.processors.end(), row.processors());
+    if (!row.measured() && known == table.processors.end()) {
+      table.processors.push_back(row.processors());
+    }
+  }
+  const auto predicted = predict::PredictRows(table, sweeps, &predictor);
+  for (TableRow& row : tables->rows) {
+    if (row.measured()) continue;
+    for (const predict::PredictedRow& candidate : predicted) {
+      const bool same =
+          candidate.method.block_size == row.block_size &&
+          candidate.processors == row.processors() &&
+          candidate.partition.chain_tasks == row.partition.chain_tasks;
+      if (same) row.predicted = candidate;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<TableRow> Table2Rows(int processors, int num_chains) {
@@ -206,6 +243,16 @@ Reproduction Reproduce(const ReproduceOptions& options) {
   }
   for (LaneMeasurement& measurement : measurements) {
     result.lanes.push_back(measurement.Take());
+  }
+  if (CanPredict(options)) {
+    predict::CalibrationOptions calibration;
+    calibration.hold_time = result.wait.hold_time;
+    const predict::MachineModel machine = predict::Calibrate(
+        calibration,
+        [&](int done, int all) { progress.Show("calibrate", done, all); });
+    for (LaneTables& tables : result.lanes) {
+      PredictRows(machine, options, result.sweeps, &tables);
+    }
   }
 
   const LiftCase middle(dynamics::PumaLift(), 100);

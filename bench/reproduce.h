@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "bench/lift_case.h"
 #include "bench/machine.h"
 #include "bench/paper.h"
+#include "bench/predict/prediction_table.h"
 #include "bench/statistics.h"
 #include "bench/sweep.h"
 
@@ -15,6 +17,7 @@ namespace bench {
 struct ReproduceOptions {
   int repetitions = 200;
   macrotask::WaitPolicy wait = {};
+  bool predict = true;  // the rows that need more processors
 };
 
 // One row of Table 2 (and of Table 1, if the block has four points).
@@ -34,6 +37,9 @@ struct TableRow {
   // From those steps to the number, not a whole one, for 1e-6 m: T is the time
   // times this.
   double scale = 1;
+  // What a row that needs more processors would give on them, if this machine
+  // had them. Nothing in a measured row.
+  std::optional<predict::PredictedRow> predicted = {};
 };
 
 // The lift with B1PC5 on one processor, its DOPRI5 start included.

@@ -35,9 +35,6 @@ std::vector<integrators::BlockMethod> Methods() {
   return methods;
 }
 
-// Of less the clock and what a record takes leave no ratios.
-constexpr double kLeastTold = 50e-9;  // s
-
 // Room for the start and for ten blocks or more of all of them.
 constexpr int kSteps = 60;
 
@@ -86,8 +83,7 @@ struct BlockSampler::Run {
   int processors() const { return figure_case.partition.num_tasks(); }
 };
 
-BlockSampler::BlockSampler(const std::vector<int>& lanes)
-    : record_seconds_(MeasureRecord()) {
+BlockSampler::BlockSampler(const std::vector<int>& lanes) : lanes_(lanes) {
   for (const int num_lanes : lanes) {
     for (const integrators::BlockMethod& method : Methods()) {
       for (const int num_chains : {1, 2, 4}) {
@@ -126,7 +122,7 @@ void BlockSampler::Measure(const Run& run) {
   round_trips_.push_back(conditions.before.round_trip);
   const RunRecords records =
       RecordsOfLastRun(trace, run.figure_case.partition.num_tasks());
-  StepReader reader(trace.ticks_per_second, record_seconds_, {});
+  StepReader reader(trace.ticks_per_second, 0, {});
   for (std::size_t t = 0; t < records.size(); ++t) {
     const auto seconds =
         SecondsByBlock(NameBlocks(reader.Read(records[t]), t == 0));
@@ -142,10 +138,7 @@ void BlockSampler::Measure(const Run& run) {
           .together = run.processors() > 1,
           .conditions = conditions,
           .seconds = Median(own)};
-      if (records.size() == 1 && own.size() > 1 &&
-          sample.seconds > kLeastTold) {
-        for (const double s : own) sample.ratios.push_back(s / sample.seconds);
-      }
+      if (records.size() == 1) sample.calls = own;
       samples_.push_back(std::move(sample));
     }
   }
@@ -153,7 +146,7 @@ void BlockSampler::Measure(const Run& run) {
 
 // The system and the integration are made anew each time: where their memory is
 // makes a run faster or slower.
-macrotask::Trace BlockSampler::TraceOf(const Run& run) const {
+macrotask::Trace BlockSampler::TraceOf(const Run& run) {
   const ClosedChainSystem system(run.lift.lift().model, run.lift.torques(),
                                  static_cast<dynamics::Lanes>(run.num_lanes));
   const MarkedSystem marked(system, {.marks = true});
@@ -166,12 +159,61 @@ macrotask::Trace BlockSampler::TraceOf(const Run& run) const {
                                         .wait = macrotask::WaitPolicy::Hold(),
                                         .on_begin = &RecordBegin,
                                         .on_end = &RecordEnd});
-  const auto run_once = [&] { integration.RunFrom(run.lift.Planned()); };
+  const auto run_once = [&] {
+    return integration.RunFrom(run.lift.Planned()).seconds();
+  };
   WarmUp(run_once);
+  const double untraced = run_once();
   StartRecording();
-  run_once();
+  const double traced = run_once();
   macrotask::SetTraceClasses(0);
-  return macrotask::TakeTrace();
+  macrotask::Trace trace = macrotask::TakeTrace();
+  if (run.processors() == 1) {
+    const RunRecords records = RecordsOfLastRun(trace, 1);
+    record_seconds_.push_back((traced - untraced) /
+                              static_cast<double>(records[0].size()));
+  }
+  return trace;
+}
+
+void BlockSampler::Sample(int run) {
+  const auto index = static_cast<std::size_t>(run);
+  if (index == runs_.size()) return MeasureBusyWork();
+  Measure(*runs_[index]);
+}
+
+// Fixed work again and again: how much longer it sometimes takes.
+void BlockSampler::MeasureBusyWork() {
+  constexpr long kSteps = 10'000;
+  constexpr int kTimes = 200;
+  MeetBoth();
+  std::vector<double> calls;
+  for (int i = 0; i < kTimes; ++i) {
+    const std::uint64_t start = Ticks();
+    Delay(kSteps);
+    calls.push_back(SecondsBetween(start, Ticks()));
+  }
+  for (const int num_lanes : lanes_) {
+    BlockSample sample;
+    sample.num_lanes = num_lanes;
+    sample.block = Block::kOther;
+    sample.counts.items = kSteps;
+    sample.seconds = Median(calls);
+    sample.calls = calls;
+    samples_.push_back(std::move(sample));
+  }
+}
+
+std::vector<BlockSample> BlockSampler::samples() const {
+  const double record =
+      record_seconds_.empty() ? 0 : std::max(0.0, Median(record_seconds_));
+  std::vector<BlockSample> samples = samples_;
+  for (BlockSample& sample : samples) {
+    if (sample.block == Block::kOther) continue;
+    sample.seconds = std::max(0.0, sample.seconds - record);
+    for (double& call : sample.calls) call = std::max(0.0, call - record);
+  }
+  return samples;
 }
 
 std::vector<BlockSample> MediansOfGroups(
@@ -222,7 +264,7 @@ BlockCost FitBlock(const std::vector<BlockSample>& samples) {
 
 Spread SpreadOf(std::vector<double> ratios) {
   constexpr int kIntervals = 40;
-  constexpr double kLeftOut = 0.01;
+  constexpr double kLeftOut = 0.005;
   if (ratios.size() < kIntervals) return {};
   Spread spread;
   std::sort(ratios.begin(), ratios.end());

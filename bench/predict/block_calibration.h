@@ -23,7 +23,7 @@ struct BlockSample {
   bool together = false;  // another processor computed at the same time
   SampleConditions conditions;
   double seconds = 0;
-  std::vector<double> ratios = {};  // of the calls of a serial run to that
+  std::vector<double> calls = {};  // each of them, in a serial run (s)
 };
 
 // Costs that grow with packs and items as the samples do: least squares of the
@@ -35,7 +35,7 @@ BlockCost FitBlock(const std::vector<BlockSample>& samples);
 std::vector<BlockSample> MediansOfGroups(
     const std::vector<BlockSample>& samples);
 
-// Quantiles from 1 % to 99 %: what lies outside, interrupts of the
+// Quantiles from 0.5 % to 99.5 %: what lies outside, interrupts of the
 // processor, does not belong to the block.
 Spread SpreadOf(std::vector<double> ratios);
 
@@ -44,7 +44,9 @@ double MeasureRecord();
 
 // Runs methods that nobody uses, such as B3PC5, with marks in their history
 // trace, serially with 1, 2 and 4 chains, and by two tasks; and takes the blocks'
-// durations from there, so that they are those of a run and not of a loop. A
+// durations from there, so that they are those of a run and not of a loop. What
+// a record takes is the difference to the same run without them. Busy work, a
+// step of Delay() an item, is kOther. A
 // task has its processor to itself in all of them, as in what is predicted.
 class BlockSampler {
  public:
@@ -52,10 +54,11 @@ class BlockSampler {
   ~BlockSampler();
 
   // Runs one of so many, 0 ..., once. Requires PrepareTrace() before.
-  int num_runs() const { return static_cast<int>(runs_.size()); }
-  void Sample(int run) { Measure(*runs_[static_cast<std::size_t>(run)]); }
+  int num_runs() const { return static_cast<int>(runs_.size()) + 1; }
+  void Sample(int run);
 
-  const std::vector<BlockSample>& samples() const { return samples_; }
+  // Without what the records themselves took.
+  std::vector<BlockSample> samples() const;
   // All round trips between the processors that were seen (s).
   const std::vector<double>& round_trips() const { return round_trips_; }
 
@@ -64,13 +67,15 @@ class BlockSampler {
   void Add(const integrators::BlockMethod& method, int num_lanes,
            int num_chains, integrators::Partition partition);
   void Measure(const Run& run);
-  macrotask::Trace TraceOf(const Run& run) const;
+  void MeasureBusyWork();
+  macrotask::Trace TraceOf(const Run& run);
 
-  double record_seconds_;
   std::map<int, std::unique_ptr<LiftCase>> lifts_;  // by number of chains
   std::vector<std::unique_ptr<Run>> runs_;
   ConditionsProbe probe_;
+  std::vector<int> lanes_;
   std::vector<BlockSample> samples_;
+  std::vector<double> record_seconds_;  // a record, in a run
   std::vector<double> round_trips_;
 };
 

@@ -27,6 +27,9 @@ const CalibrationOptions& Checked(const CalibrationOptions& options) {
   return options;
 }
 
+// The clock and what a record takes leave no ratios of less.
+constexpr double kLeastTold = 50e-9;  // s
+
 using Samples = std::vector<BlockSample>;
 
 Samples Undisturbed(const Samples& samples, const DistanceSplit& split) {
@@ -54,7 +57,10 @@ BlockCosts FitBlocks(const Samples& kept, int num_lanes) {
                           sample.block == static_cast<Block>(b);
       if (!wanted) continue;
       own.push_back(sample);
-      ratios.insert(ratios.end(), sample.ratios.begin(), sample.ratios.end());
+      if (!(sample.seconds > kLeastTold)) continue;
+      for (const double call : sample.calls) {
+        ratios.push_back(call / sample.seconds);
+      }
     }
     if (own.empty()) continue;
     BlockCost& cost = costs[static_cast<std::size_t>(b)];

@@ -23,8 +23,9 @@ using macrotask::WaitKind;
 constexpr std::string_view kFormat = "macrotask machine 1";
 constexpr WaitKind kWaitKinds[] = {WaitKind::kBlock, WaitKind::kSpin,
                                    WaitKind::kHold, WaitKind::kLogical};
-constexpr Block kBlocks[] = {Block::kStart, Block::kCs,  Block::kOcd,
-                             Block::kRma,   Block::kCcd, Block::kShift};
+constexpr Block kBlocks[] = {Block::kStart, Block::kCs,    Block::kOcd,
+                             Block::kRma,   Block::kCcd,   Block::kShift,
+                             Block::kOther};
 
 template <typename Cost>
 struct TimeMember {

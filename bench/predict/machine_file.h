@@ -15,7 +15,7 @@
 //     "lanes": {
 //       "1": {
 //         "OCD": {"call": 0, "pack": 0, "item": 1e-4, "spread": [0.99, 1, 1.01]},
-//         ... "start", "CS", "RMA", "CCD", "shift"
+//         ... "start", "CS", "RMA", "CCD", "shift", "other" (busy work)
 //       }
 //     },
 //     "slowdowns": [{"from_processors": 8, "lanes": 1, "factor": 1.07,
@@ -38,8 +38,7 @@
 //
 // Seconds throughout. "format", "name", "processors", "lanes" and "conditions"
 // must be there; of the rest, what is not there is 0, empty or 1 as in
-// machine.h. "sleeps_after" that is not there: never. "other" is no block of a
-// file.
+// machine.h. "sleeps_after" that is not there: never.
 
 namespace bench::predict {
 
@@ -48,9 +47,9 @@ namespace bench::predict {
 // JSON, has members that nobody knows, misses some, or has figures that no
 // machine has: no processors, lanes that are neither 1 nor 4, negative or
 // infinite times, spreads that do not ascend or are not positive, shares that do
-// not add up to 1 (to 1e-6), slowdowns below 1 or, of one width of lanes,
-// not in ascending order, two
-// conditions of one name, no condition, a condition without waits.
+// not add up to 1 (to 1e-6), slowdowns of lanes that are not 0, 1 or 4, below 1
+// or, of one width of lanes, not in ascending order, two conditions of one name,
+// no condition, a condition without waits.
 MachineModel ParseMachine(std::string_view text, std::string_view name);
 
 // What ParseMachine() reads back as the same, to the bit.

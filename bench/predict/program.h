@@ -31,7 +31,7 @@ struct Step {
   Block block = Block::kOther;  // of kCompute
   int object = 0;               // index of the barrier, event, lock, or task
   double seconds = 0;           // of kCompute, median
-  double busy = 0;              // of kCompute, on top of that: never varies
+  double busy = 0;              // of kCompute, too: busy work, varies as kOther
 
   friend bool operator==(const Step&, const Step&) = default;
 };

@@ -241,12 +241,16 @@ class Simulation {
   }
 
   double Draw(const Step& step, Task* task) const {
-    const Spread& spread =
-        options_.spreads[static_cast<std::size_t>(step.block)];
-    if (spread.empty()) return step.busy + step.seconds;
+    return Vary(step.block, step.seconds, task) +
+           Vary(Block::kOther, step.busy, task);
+  }
+
+  double Vary(Block block, double seconds, Task* task) const {
+    const Spread& spread = options_.spreads[static_cast<std::size_t>(block)];
+    if (spread.empty() || seconds == 0) return seconds;
     // 53 bits, as a double has them: the same everywhere.
     const double u = static_cast<double>(task->random() >> 11) * 0x1p-53;
-    return step.busy + step.seconds * Quantile(spread, u);
+    return seconds * Quantile(spread, u);
   }
 
   void End(int t) {

@@ -1,6 +1,7 @@
 #include "bench/predict/wait_calibration.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -86,8 +87,8 @@ class Rows {
   Distance distance_;
 };
 
-// n / P turn + shared_wake through both points; without the latter where it
-// would be negative.
+// n / P turn + shared_wake through both points. Where the latter would be
+// negative, n / P turn alone, as far above the one as below the other.
 void FitCrowded(const Rows& rows, WaitKind wait, int processors,
                 WaitCost* cost) {
   const auto few = rows.Overhead(kBarsync, Name(wait), kFewTasks);
@@ -96,7 +97,9 @@ void FitCrowded(const Rows& rows, WaitKind wait, int processors,
   const double slope = (*many - *few) / (kManyTasks - kFewTasks);
   cost->shared_wake = std::max(0.0, *few - slope * kFewTasks);
   cost->turn =
-      std::max(0.0, (*many - cost->shared_wake) / kManyTasks) * processors;
+      processors * (cost->shared_wake > 0
+                        ? std::max(0.0, slope)
+                        : std::sqrt(*few / kFewTasks * *many / kManyTasks));
 }
 
 WaitCost FitWait(const Rows& rows, WaitKind wait, double one_way,

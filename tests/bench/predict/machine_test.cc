@@ -71,16 +71,41 @@ TEST(BarrierCost, IsCountedWhereOnlyTheOtherAlgorithmIsKnown) {
 
 TEST(SlowdownOn, IsThatOfTheLastThatBegins) {
   MachineModel machine;
-  machine.slowdowns = {{2, 1.1, "clock"}, {8, 1.5, "memory"}};
-  EXPECT_EQ(machine.SlowdownOn(1), 1);
-  EXPECT_EQ(machine.SlowdownOn(2), 1.1);
-  EXPECT_EQ(machine.SlowdownOn(7), 1.1);
-  EXPECT_EQ(machine.SlowdownOn(8), 1.5);
-  EXPECT_EQ(machine.SlowdownOn(64), 1.5);
+  machine.slowdowns = {{2, 0, 1.1, "clock"}, {8, 0, 1.5, "memory"}};
+  for (const int lanes : {1, 4}) {
+    EXPECT_EQ(machine.SlowdownOn(1, lanes), 1);
+    EXPECT_EQ(machine.SlowdownOn(2, lanes), 1.1);
+    EXPECT_EQ(machine.SlowdownOn(7, lanes), 1.1);
+    EXPECT_EQ(machine.SlowdownOn(8, lanes), 1.5);
+    EXPECT_EQ(machine.SlowdownOn(64, lanes), 1.5);
+  }
+}
+
+TEST(SlowdownOn, IsThatOfItsWidth) {
+  MachineModel machine;
+  machine.slowdowns = {
+      {2, 1, 1.1, ""}, {4, 1, 1.2, ""}, {2, 4, 1.5, ""}, {8, 4, 2, ""}};
+  EXPECT_EQ(machine.SlowdownOn(1, 4), 1);
+  EXPECT_EQ(machine.SlowdownOn(2, 1), 1.1);
+  EXPECT_EQ(machine.SlowdownOn(2, 4), 1.5);
+  EXPECT_EQ(machine.SlowdownOn(4, 1), 1.2);
+  EXPECT_EQ(machine.SlowdownOn(4, 4), 1.5);
+  EXPECT_EQ(machine.SlowdownOn(8, 1), 1.2);
+  EXPECT_EQ(machine.SlowdownOn(8, 4), 2);
+}
+
+// Of those of all widths and of its own, the last one of the list.
+TEST(SlowdownOn, OfOneWidthTakesThePlaceOfThatOfAllBeforeIt) {
+  MachineModel machine;
+  machine.slowdowns = {{2, 0, 1.1, ""}, {8, 0, 1.5, ""}, {4, 4, 2, ""}};
+  EXPECT_EQ(machine.SlowdownOn(2, 4), 1.1);
+  EXPECT_EQ(machine.SlowdownOn(4, 4), 2);
+  EXPECT_EQ(machine.SlowdownOn(8, 4), 2);
+  EXPECT_EQ(machine.SlowdownOn(8, 1), 1.5);
 }
 
 TEST(SlowdownOn, IsOneWithoutSlowdowns) {
-  EXPECT_EQ(MachineModel{}.SlowdownOn(64), 1);
+  EXPECT_EQ(MachineModel{}.SlowdownOn(64, 1), 1);
 }
 
 TEST(BlocksOf, AreThoseOfTheWidth) {

@@ -75,11 +75,20 @@ TEST(Work, IsThatOfAllTasks) {
   EXPECT_EQ(Work(program), 7 + 11);
 }
 
+TEST(Work, CountsBusyWorkOnTopOfTheBlock) {
+  Step step = Compute(Block::kOcd, 2);
+  step.busy = 0.5;
+  Program program;
+  program.tasks = {{{step}, {step}, {step}, 3}};
+  EXPECT_EQ(Work(program), 5 * 2.5);
+}
+
 TEST(Work, IsNothingWithoutTasks) { EXPECT_EQ(Work({}), 0); }
 
 TEST(Work, IsComputingAlone) {
   Step step = Sync(StepKind::kWait, 0);
   step.seconds = 8;
+  step.busy = 8;
   Program program;
   program.tasks = {{{step}, {step}, {step}, 2}};
   EXPECT_EQ(Work(program), 0);

@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bench/predict/marks.h"
+#include "tests/bench/predict/print_step.h"
 #include "tests/bench/trace_example.h"
 
 namespace bench::predict {
-
-// For the message of a test that fails.
-inline void PrintTo(const Step& step, std::ostream* out) {
-  *out << "{kind " << static_cast<int>(step.kind) << ", " << Name(step.block)
-       << ", object " << step.object << ", " << step.seconds << " s}";
-}
 
 namespace {
 
