@@ -73,7 +73,9 @@ std::string MachineHeader(const predict::MachineModel& machine) {
         "slowdown:   computing takes {:.3f} times as long on {} processors or "
         "more{}{}\n",
         slowdown.factor, slowdown.from_processors,
-        slowdown.lanes == 0 ? "" : fmt::format(", {} lanes", slowdown.lanes),
+        slowdown.lanes == 0 ? ""
+                            : fmt::format(", {} lane{}", slowdown.lanes,
+                                          slowdown.lanes == 1 ? "" : "s"),
         slowdown.why.empty() ? "" : ": " + slowdown.why);
   }
   for (const predict::Condition& condition : machine.conditions) {

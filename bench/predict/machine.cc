@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cmath>
+#include <cstddef>
 #include <stdexcept>
 
 #include "macrotask/barrier_algorithm.h"
@@ -22,6 +22,13 @@ int TreeLevels(int num_tasks) {
 }
 
 }  // namespace
+
+double MeanOf(const Spread& spread) {
+  if (spread.size() < 2) return spread.empty() ? 1 : spread[0];
+  double sum = (spread.front() + spread.back()) / 2;
+  for (std::size_t i = 1; i + 1 < spread.size(); ++i) sum += spread[i];
+  return sum / static_cast<double>(spread.size() - 1);
+}
 
 double BarrierCost::Seconds(int num_tasks) const {
   if (num_tasks < 2) return 0;

@@ -20,6 +20,9 @@ namespace bench::predict {
 // equal distances from 0 to 1, ascending. Empty: it does not.
 using Spread = std::vector<double>;
 
+// The mean ratio; 1 of an empty one.
+double MeanOf(const Spread& spread);
+
 // What one call of a block of the computation costs: call + pack packs + item
 // items (s). What packs and items are, see CountsOf() in figure_costs.h.
 struct BlockCost {

@@ -30,6 +30,15 @@ void Add(const SimulationResult& result, double weight, TaskTimes* mean) {
   }
 }
 
+// Costs that never vary, but are as long as those that do on average.
+BlockCosts MeansOf(BlockCosts blocks) {
+  for (BlockCost& cost : blocks) {
+    const double mean = MeanOf(cost.spread);
+    cost = {cost.call * mean, cost.pack * mean, cost.item * mean, {}};
+  }
+  return blocks;
+}
+
 std::array<Spread, kNumBlocks> SpreadsOf(const BlockCosts& blocks) {
   std::array<Spread, kNumBlocks> spreads;
   for (std::size_t b = 0; b < spreads.size(); ++b) {
@@ -87,14 +96,17 @@ Prediction Predictor::Replicate(
   Program program = StructureOf(run_case.figure);
   const BlockCosts& blocks = machine_.BlocksOf(run_case.num_lanes);
   const int used = std::min(run_case.processors, program.num_tasks());
-  RunCosts costs = {.num_lanes = run_case.num_lanes,
-                    .work = run_case.work,
-                    .num_processors = run_case.processors};
-  SetCosts(run_case.figure, options_.sizes, blocks, costs, &program);
+  RunCosts costs = {
+      .num_lanes = run_case.num_lanes,
+      .work = run_case.work *
+              MeanOf(blocks[static_cast<std::size_t>(Block::kOther)].spread),
+      .num_processors = run_case.processors};
+  SetCosts(run_case.figure, options_.sizes, MeansOf(blocks), costs, &program);
   Prediction prediction;
   prediction.limits =
       CalcLimits(program, run_case.processors, TaskPlacement::kPinned);
 
+  costs.work = run_case.work;
   costs.slowdown = machine_.SlowdownOn(used, run_case.num_lanes);
   SimulationOptions options = {.processors = run_case.processors,
                                .spreads = SpreadsOf(blocks)};

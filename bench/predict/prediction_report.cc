@@ -76,8 +76,10 @@ std::string BestSentences(const std::vector<PredictedRow>& rows) {
     if (!done.insert(row.processors).second) continue;
     const auto own = RowsOn(rows, row.processors);
     const PredictedRow &best = BestOf(own), &rule = RuleOf(own);
-    text += fmt::format("{:>6} processors: {}, S_T {:.2f}", row.processors,
-                        ConfigurationText(best), best.S_T.value);
+    text +=
+        fmt::format("{:>6} processor{} {}, S_T {:.2f}", row.processors,
+                    row.processors == 1 ? ": " : "s:", ConfigurationText(best),
+                    best.S_T.value);
     text += &best == &rule
                 ? "; so says the rule\n"
                 : fmt::format("; by the rule {}, {:.2f}\n",

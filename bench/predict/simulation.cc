@@ -1,99 +1,22 @@
 #include "bench/predict/simulation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
-#include <deque>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <random>
 #include <stdexcept>
-#include <string>
 #include <utility>
+
+#include "bench/predict/simulated_objects.h"
+#include "bench/predict/simulated_processors.h"
+#include "bench/predict/simulated_task.h"
 
 namespace bench::predict {
 namespace {
 
-constexpr int kNobody = -1;
-
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
-// Follows the steps of a task.
-class Cursor {
- public:
-  explicit Cursor(const TaskProgram& task) : task_(&task) { Settle(); }
-
-  bool at_end() const { return part_ == 3; }
-  const Step& step() const { return (*steps())[index_]; }
-  void Next() {
-    ++index_;
-    Settle();
-  }
-
- private:
-  const std::vector<Step>* steps() const {
-    return part_ == 0 ? &task_->head : part_ == 1 ? &task_->body : &task_->tail;
-  }
-  // Goes on to the next part, or the next body, where one is through.
-  void Settle() {
-    while (part_ < 3 && (index_ == steps()->size() || NoBodyIsLeft())) {
-      const bool again = part_ == 1 && !NoBodyIsLeft() &&
-                         ++turn_ < task_->num_bodies && index_ > 0;
-      if (!again) ++part_;
-      index_ = 0;
-    }
-  }
-  bool NoBodyIsLeft() const { return part_ == 1 && turn_ >= task_->num_bodies; }
-
-  const TaskProgram* task_;
-  int part_ = 0;  // head, body, tail, nothing
-  long turn_ = 0;
-  std::size_t index_ = 0;
-};
-
-// The value of a spread that the share `u` of all do not exceed.
-double Quantile(const Spread& spread, double u) {
-  const double place = u * static_cast<double>(spread.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  if (below + 1 >= spread.size()) return spread.back();
-  const double weight = place - static_cast<double>(below);
-  return spread[below] + weight * (spread[below + 1] - spread[below]);
-}
-
-struct Task {
-  Task(const TaskProgram& program, std::uint64_t seed)
-      : cursor(program), random(seed) {}
-
-  Cursor cursor;
-  std::mt19937_64 random;  // its own, so that nobody's order matters to it
-  TaskTimes times;
-  double begin = 0;
-  double waits_since = 0;
-  double ready_since = 0;
-  int processor = kNobody;  // has it, had it last, or is at home there
-  bool complete = false;
-  std::vector<int> joiners;
-};
-
-struct Processor {
-  int task = kNobody;  // that has it
-  int last = kNobody;  // that had it last
-  std::deque<int> queue;
-};
-
-struct Barrier {
-  std::vector<int> waiting;
-};
-struct Event {
-  bool posted = false;
-  double posted_at = 0;
-  std::vector<int> waiting;
-};
-struct Lock {
-  bool taken = false;
-  std::deque<int> waiting;
-};
 
 struct Happening {
   double time;
@@ -111,17 +34,11 @@ class Simulation {
   Simulation(const Program& program, const SimulationOptions& options)
       : program_(program),
         options_(options),
-        processors_(At(options.processors)),
-        barriers_(program.barriers.size()),
-        events_(At(program.num_events)),
-        locks_(At(program.num_locks)) {
+        processors_(options.processors, options.placement, program.num_tasks()),
+        objects_(program) {
     std::mt19937_64 seeds(options.seed);
-    const int n = program.num_tasks();
-    for (int t = 0; t < n; ++t) {
-      tasks_.emplace_back(program.tasks[At(t)], seeds());
-      // Neighbours together, as many or one more on each.
-      const long used = std::min<long>(n, options.processors);
-      tasks_.back().processor = static_cast<int>(t * used / n);
+    for (const TaskProgram& task : program.tasks) {
+      tasks_.emplace_back(task, seeds());
     }
   }
 
@@ -134,7 +51,7 @@ class Simulation {
       agenda_.pop();
       now_ = next.time;
       if (next.kind == Happening::kReady) {
-        TakeProcessor(next.task);
+        Give(processors_.Take(next.task));
       } else {
         GoOn(next.task);
       }
@@ -143,7 +60,12 @@ class Simulation {
   }
 
  private:
-  bool is_crowded() const { return num_live_ > options_.processors; }
+  using Task = SimulatedTask;
+  using Barrier = SimulatedBarrier;
+  using Event = SimulatedEvent;
+  using Lock = SimulatedLock;
+
+  bool is_crowded() const { return num_live_ > processors_.number(); }
 
   void Plan(double time, int task, Happening::Kind kind) {
     agenda_.push({time, num_planned_++, task, kind});
@@ -152,59 +74,19 @@ class Simulation {
   void Begin(int t, double time) {
     ++num_live_;
     Task& task = tasks_[At(t)];
-    task.begin = time;
     task.times.absent = time;
     task.ready_since = time;
     Plan(time, t, Happening::kReady);
   }
 
-  // --- Processors -----------------------------------------------------------
-
-  // `t` is ready: it gets a processor, or queues for one.
-  void TakeProcessor(int t) {
-    Task& task = tasks_[At(t)];
-    if (options_.placement == TaskPlacement::kFree &&
-        processors_[At(task.processor)].task != kNobody) {
-      const auto idle = std::find_if(
-          processors_.begin(), processors_.end(),
-          [](const Processor& other) { return other.task == kNobody; });
-      if (idle == processors_.end()) {
-        free_queue_.push_back(t);
-        return;
-      }
-      task.processor = static_cast<int>(idle - processors_.begin());
-    }
-    Processor& processor = processors_[At(task.processor)];
-    if (processor.task == kNobody) {
-      Dispatch(t, &processor);
-    } else {
-      processor.queue.push_back(t);
-    }
-  }
-
-  void Dispatch(int t, Processor* processor) {
-    Task& task = tasks_[At(t)];
+  // Whoever is given a processor goes on.
+  void Give(const std::optional<SimulatedProcessors::Turn>& turn) {
+    if (!turn) return;
+    Task& task = tasks_[At(turn->task)];
     task.times.queue += now_ - task.ready_since;
-    const bool follows = processor->last != kNobody && processor->last != t;
-    const double turn = follows ? options_.wait.turn : 0;
-    task.times.sync += turn;
-    processor->task = processor->last = t;
-    Plan(now_ + turn, t, Happening::kGoesOn);
-  }
-
-  // `t` waits or has ended: the next one has its processor.
-  void LeaveProcessor(int t) {
-    const int index = tasks_[At(t)].processor;
-    Processor& processor = processors_[At(index)];
-    processor.task = kNobody;
-    std::deque<int>& queue = options_.placement == TaskPlacement::kFree
-                                 ? free_queue_
-                                 : processor.queue;
-    if (queue.empty()) return;
-    const int next = queue.front();
-    queue.pop_front();
-    tasks_[At(next)].processor = index;
-    Dispatch(next, &processor);
+    const double seconds = turn->follows ? options_.wait.turn : 0;
+    task.times.sync += seconds;
+    Plan(now_ + seconds, turn->task, Happening::kGoesOn);
   }
 
   // --- Steps ----------------------------------------------------------------
@@ -224,7 +106,7 @@ class Simulation {
         }
         continue;
       }
-      const double seconds = Draw(step, &task);
+      const double seconds = task.Draw(step, options_.spreads);
       task.cursor.Next();
       if (seconds <= 0) continue;
       task.times.compute += seconds;
@@ -238,19 +120,6 @@ class Simulation {
   void KeepBusy(int t) {
     tasks_[At(t)].times.sync += busy_until_ - now_;
     Plan(busy_until_, t, Happening::kGoesOn);
-  }
-
-  double Draw(const Step& step, Task* task) const {
-    return Vary(step.block, step.seconds, task) +
-           Vary(Block::kOther, step.busy, task);
-  }
-
-  double Vary(Block block, double seconds, Task* task) const {
-    const Spread& spread = options_.spreads[static_cast<std::size_t>(block)];
-    if (spread.empty() || seconds == 0) return seconds;
-    // 53 bits, as a double has them: the same everywhere.
-    const double u = static_cast<double>(task->random() >> 11) * 0x1p-53;
-    return seconds * Quantile(spread, u);
   }
 
   void End(int t) {
@@ -268,71 +137,59 @@ class Simulation {
     end_ = std::max(end_, now_);
     --num_live_;
     ++num_complete_;
-    LeaveProcessor(t);
+    Give(processors_.Leave(t));
   }
 
-  // Makes a call of `t`. Returns whether it goes on, from busy_until_.
+  // --- Calls ----------------------------------------------------------------
+
+  // Makes a call of `t`. Returns whether it goes on, from busy_until_; so do the
+  // calls that may wait.
   bool Call(int t, const Step& step) {
+    const std::size_t index = At(step.object);
     busy_until_ = now_;
     switch (step.kind) {
       case StepKind::kBarrier:
-        return Arrive(t, step.object);
+        return Arrive(t, &objects_.barriers[index]);
       case StepKind::kPost:
-        Post(t, &events_[At(step.object)]);
+        Post(t, &objects_.events[index]);
         return true;
       case StepKind::kClear:
-        events_[At(step.object)].posted = false;
-        busy_until_ += options_.wait.post;
+        Clear(&objects_.events[index]);
         return true;
       case StepKind::kWait:
-        if (events_[At(step.object)].posted) {
-          Pass(events_[At(step.object)]);
-          return true;
-        }
-        events_[At(step.object)].waiting.push_back(t);
-        break;
+        return Pass(t, &objects_.events[index]);
       case StepKind::kLock:
-        if (!locks_[At(step.object)].taken) {
-          locks_[At(step.object)].taken = true;
-          return true;
-        }
-        locks_[At(step.object)].waiting.push_back(t);
-        break;
+        return Acquire(t, &objects_.locks[index]);
       case StepKind::kUnlock:
-        Unlock(t, &locks_[At(step.object)]);
+        Unlock(t, &objects_.locks[index]);
         return true;
       case StepKind::kStart:
         Begin(step.object, now_ + options_.wait.start);
         return true;
       case StepKind::kJoin:
-        if (tasks_[At(step.object)].complete) return true;
-        tasks_[At(step.object)].joiners.push_back(t);
-        break;
+        return Join(t, &tasks_[index]);
       case StepKind::kCompute:
         break;
     }
-    Wait(t);
+    return true;
+  }
+
+  // Adds `t` to `waiting`. Returns false: it does not go on.
+  template <typename Waiting>
+  bool Wait(int t, Waiting* waiting) {
+    waiting->push_back(t);
+    tasks_[At(t)].waits_since = now_;
+    Give(processors_.Leave(t));
     return false;
   }
 
-  void Wait(int t) {
-    tasks_[At(t)].waits_since = now_;
-    LeaveProcessor(t);
-  }
-
-  // Returns whether `t` goes on at once: in a barrier of its own.
-  bool Arrive(int t, int index) {
-    Barrier& barrier = barriers_[At(index)];
-    const int num_tasks = program_.barriers[At(index)];
-    if (static_cast<int>(barrier.waiting.size()) + 1 < num_tasks) {
-      barrier.waiting.push_back(t);
-      Wait(t);
-      return false;
-    }
-    const double latency = options_.wait.barrier.Seconds(num_tasks);
+  bool Arrive(int t, Barrier* barrier) {
+    const int num_waiting = static_cast<int>(barrier->waiting.size());
+    if (num_waiting + 1 < barrier->num_tasks) return Wait(t, &barrier->waiting);
+    const double latency = options_.wait.barrier.Seconds(barrier->num_tasks);
     has_woken_ = false;
-    for (const int waiter : barrier.waiting) Release(waiter, t, latency);
-    barrier.waiting.clear();
+    for (const int waiter : barrier->waiting) Release(waiter, t, latency);
+    barrier->waiting.clear();
     // Whoever has woken others has paid for it; else it leaves with them.
     if (!is_crowded() && !has_woken_) busy_until_ += latency;
     return true;
@@ -348,10 +205,23 @@ class Simulation {
     event->waiting.clear();
   }
 
-  // The event is posted: the call goes on when that is known here.
-  void Pass(const Event& event) {
-    if (is_crowded()) return;
-    busy_until_ = std::max(busy_until_, event.posted_at + options_.wait.event);
+  void Clear(Event* event) {
+    event->posted = false;
+    busy_until_ += options_.wait.post;
+  }
+
+  // One that was posted just now is not known here yet.
+  bool Pass(int t, Event* event) {
+    if (!event->posted) return Wait(t, &event->waiting);
+    if (is_crowded()) return true;
+    busy_until_ = std::max(busy_until_, event->posted_at + options_.wait.event);
+    return true;
+  }
+
+  bool Acquire(int t, Lock* lock) {
+    if (lock->taken) return Wait(t, &lock->waiting);
+    lock->taken = true;
+    return true;
   }
 
   void Unlock(int t, Lock* lock) {
@@ -363,6 +233,10 @@ class Simulation {
     lock->waiting.pop_front();
   }
 
+  bool Join(int t, Task* task) {
+    return task->complete || Wait(t, &task->joiners);
+  }
+
   // A call of `by` now ends the wait of `t`.
   void Release(int t, int by, double latency) {
     const WaitCost& cost = options_.wait;
@@ -370,9 +244,7 @@ class Simulation {
     const double waited = now_ - task.waits_since;
     task.times.imbalance += waited;
     if (is_crowded()) {
-      const bool neighbours = task.processor == tasks_[At(by)].processor &&
-                              options_.placement == TaskPlacement::kPinned;
-      latency = neighbours ? 0 : cost.shared_wake;
+      latency = processors_.AreNeighbours(t, by) ? 0 : cost.shared_wake;
     } else if (waited > cost.sleeps_after) {
       latency = cost.wake;
       has_woken_ = true;
@@ -387,7 +259,7 @@ class Simulation {
 
   SimulationResult Result() {
     if (num_complete_ < program_.num_tasks()) {
-      throw std::runtime_error(WhoWaits());
+      throw std::runtime_error(WhoWaits(tasks_, objects_));
     }
     SimulationResult result;
     result.seconds = end_;
@@ -398,40 +270,11 @@ class Simulation {
     return result;
   }
 
-  std::string WhoWaits() const {
-    const auto contains = [](const auto& waiting, int t) {
-      return std::find(waiting.begin(), waiting.end(), t) != waiting.end();
-    };
-    for (int t = 0; t < program_.num_tasks(); ++t) {
-      if (tasks_[At(t)].complete) continue;
-      const auto sentence = [&](const char* what, std::size_t index) {
-        return fmt::format("task {} would wait for {} {} for ever", t + 1, what,
-                           index + 1);
-      };
-      for (std::size_t i = 0; i < barriers_.size(); ++i) {
-        if (contains(barriers_[i].waiting, t)) return sentence("barrier", i);
-      }
-      for (std::size_t i = 0; i < events_.size(); ++i) {
-        if (contains(events_[i].waiting, t)) return sentence("event", i);
-      }
-      for (std::size_t i = 0; i < locks_.size(); ++i) {
-        if (contains(locks_[i].waiting, t)) return sentence("lock", i);
-      }
-      for (std::size_t i = 0; i < tasks_.size(); ++i) {
-        if (contains(tasks_[i].joiners, t)) return sentence("task", i);
-      }
-    }
-    return "a task would wait for its start for ever";
-  }
-
   const Program& program_;
   const SimulationOptions& options_;
   std::vector<Task> tasks_;
-  std::vector<Processor> processors_;
-  std::deque<int> free_queue_;  // of kFree
-  std::vector<Barrier> barriers_;
-  std::vector<Event> events_;
-  std::vector<Lock> locks_;
+  SimulatedProcessors processors_;
+  SimulatedObjects objects_;
   std::priority_queue<Happening, std::vector<Happening>, std::greater<>>
       agenda_;
   std::uint64_t num_planned_ = 0;
