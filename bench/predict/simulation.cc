@@ -196,8 +196,9 @@ class Simulation {
   }
 
   void Post(int t, Event* event) {
+    // Whoever knows that it is posted learns nothing from another post.
+    if (!event->posted) event->posted_at = now_;
     event->posted = true;
-    event->posted_at = now_;
     busy_until_ += options_.wait.post;
     for (const int waiter : event->waiting) {
       Release(waiter, t, options_.wait.event);

@@ -88,11 +88,18 @@ TEST(Simulate, WaitForAnEventThatWasJustPostedWakesNobody) {
   EXPECT_EQ(Of(result, 1), (Times{4.0625, 0, 0.4375, 0, 0}));
 }
 
-TEST(Simulate, EventThatIsPostedAgainWasPostedThen) {
+TEST(Simulate, EventThatWasClearedIsPostedAnew) {
   const auto result = Simulated(
       Tasks({{Post(0), Clear(0), Busy(2), Post(0)}, {Busy(2.25), Wait(0)}}),
       On(2, {.barrier = {}, .event = 0.5}));
   EXPECT_EQ(Of(result, 1), (Times{2.25, 0, 0.25, 0, 0}));
+}
+
+TEST(Simulate, SecondPostOfAPostedEventTellsNothingNew) {
+  const auto result =
+      Simulated(Tasks({{Post(0), Busy(2), Post(0)}, {Busy(2.25), Wait(0)}}),
+                On(2, {.barrier = {}, .event = 0.5}));
+  EXPECT_EQ(Of(result, 1), (Times{2.25, 0, 0, 0, 0}));
 }
 
 TEST(Simulate, PostLetsAllWaitersGoWhileItStillCostsItsCaller) {
